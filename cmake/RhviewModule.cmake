@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 The rhview authors
+# SPDX-License-Identifier: MIT
+#
+# rhview_module(name SOURCES … HEADERS … DEPENDS … [LIBRARIES …] [PRIVATE_LIBRARIES …])
+#
+# One module: static library rhview_<name>, alias rhview::<name>, include root <name>/include. DEPENDS names modules,
+# all of them on lower floors (an upward or sideways one stops the configure step); since each module has its own
+# include directory, a header of a module that is not linked cannot be found by the compiler.
+
+include_guard(GLOBAL)
+
+set(RHVIEW_FLOOR_base 0)
+set(RHVIEW_FLOOR_frustum 1)
+set(RHVIEW_FLOOR_scenes 1)
+set(RHVIEW_FLOOR_rhoctree 2)
+set(RHVIEW_FLOOR_pipeline 3)
+set(RHVIEW_FLOOR_gl 4)
+set(RHVIEW_FLOOR_baselines 4)
+
+# Flags of our own targets only: consumers see none of them.
+function(rhview_private_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  if(MSVC)
+    target_compile_options(${target} PRIVATE /W4 $<$<BOOL:${RHVIEW_WARNINGS_AS_ERRORS}>:/WX>)
+  else()
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wpedantic
+      $<$<BOOL:${RHVIEW_WARNINGS_AS_ERRORS}>:-Werror>)
+    if(RHVIEW_SANITIZE)
+      target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+      target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+    endif()
+  endif()
+endfunction()
+
+function(rhview_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES")
+  if(NOT DEFINED RHVIEW_FLOOR_${name})
+    message(FATAL_ERROR "rhview_module(${name}): the module has no floor; add it to cmake/RhviewModule.cmake")
+  endif()
+  foreach(dependency IN LISTS arg_DEPENDS)
+    if(NOT DEFINED RHVIEW_FLOOR_${dependency})
+      message(FATAL_ERROR "rhview_module(${name}): there is no module '${dependency}'")
+    endif()
+    if(NOT RHVIEW_FLOOR_${dependency} LESS RHVIEW_FLOOR_${name})
+      message(FATAL_ERROR "rhview_module(${name}): floor ${RHVIEW_FLOOR_${name}} may not depend on '${dependency}' "
+        "on floor ${RHVIEW_FLOOR_${dependency}}: dependencies point downwards")
+    endif()
+  endforeach()
+
+  add_library(rhview_${name} STATIC ${arg_SOURCES})
+  add_library(rhview::${name} ALIAS rhview_${name})
+  list(TRANSFORM arg_DEPENDS PREPEND rhview::)
+  target_sources(rhview_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
+  target_link_libraries(rhview_${name} PUBLIC ${arg_DEPENDS} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
+  rhview_private_options(rhview_${name})
+  set_target_properties(rhview_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_property(GLOBAL APPEND PROPERTY RHVIEW_MODULES ${name})
+  set_property(GLOBAL PROPERTY RHVIEW_HEADERS_${name} ${arg_HEADERS})
+endfunction()

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// Scene files: glTF 2.0 (`.glb`, `.gltf`), Wavefront (`.obj` with `.mtl`), Stanford (`.ply`).
+///
+/// Nodes are flattened into static batches per material; mirrored ones keep their outside outside. Textures, lights,
+/// cameras, skins, morph targets and animations are not read. Errors are one sentence that names the file, the place
+/// and the mend: missing or unreadable file, truncated or corrupt data, index out of range, no triangle, more memory
+/// than is free (said before allocating). Triangles that are not finite are dropped, counted and reported as a warning.
+#pragma once
+
+#include <filesystem>
+
+#include "rhview/base/result.h"
+#include "rhview/scenes/scene.h"
+
+namespace rhview {
+
+/// Reads the format that the file's extension says (any case).
+Result<Scene> import_scene(const std::filesystem::path& file);
+
+}  // namespace rhview

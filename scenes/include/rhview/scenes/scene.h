@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// A scene as the program and the tests hold it: materials, static batches, meshes and the objects that place them.
+///
+/// Conventions: positions are `float`, relative to `Scene::origin`; metres; front faces counter-clockwise.
+/// Every vertex is stored once: batches and meshes hold indices into a pool.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "rhview/base/aabb.h"
+#include "rhview/base/ids.h"
+#include "rhview/base/triangle_batch.h"
+
+namespace rhview {
+
+struct Material {
+    std::string name;
+    glm::vec3 colour{0.8f};     ///< linear RGB
+    bool two_sided = false;     ///< both sides are drawn: no back-face culling
+    bool alpha_tested = false;  ///< has holes: never an occluder
+};
+
+/// Unit normal, three signed 10-bit components (x in the low bits): OpenGL's GL_INT_2_10_10_10_REV.
+enum class PackedNormal : std::uint32_t {};
+PackedNormal pack_normal(const glm::vec3& unit_normal);
+
+/// Linear RGBA, 8 bits each, red in the low byte.
+enum class PackedColour : std::uint32_t {};
+PackedColour pack_colour(const glm::vec3& colour);
+
+/// The vertices of one vertex format. `normals` and `colours` are empty or as long as `positions`; without normals
+/// a surface is shaded flat, without colours it takes its material's.
+struct VertexPool {
+    std::vector<glm::vec3> positions;
+    std::vector<PackedNormal> normals;
+    std::vector<PackedColour> colours;
+
+    [[nodiscard]] std::size_t bytes() const;
+};
+
+/// What the scene's author placed as one thing: a contiguous part of its batch's indices.
+struct SceneObject {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    Aabb bounds;
+};
+
+/// Static triangles of one material in one vertex format; its objects cover `indices` in order, without gaps.
+struct SceneBatch {
+    MaterialId material{};
+    std::uint32_t pool = 0;
+    std::vector<std::uint32_t> indices;
+    std::vector<SceneObject> objects;
+};
+
+/// A mesh that several objects share, in its own space.
+struct SceneMesh {
+    MaterialId material{};
+    std::uint32_t pool = 0;
+    std::vector<std::uint32_t> indices;
+    Aabb bounds;
+};
+
+/// A placed mesh that is not merged into the static batches.
+struct DynamicObject {
+    MeshId mesh{};
+    glm::dmat4 scene_from_mesh{1.0};  ///< affine, relative to `Scene::origin`
+};
+
+struct Scene {
+    std::string name;
+    glm::dvec3 origin{0.0};  ///< world position of the scene's zero
+    std::vector<Material> materials;
+    std::vector<VertexPool> pools;
+    std::vector<SceneBatch> batches;
+    std::vector<SceneMesh> meshes;
+    std::vector<DynamicObject> dynamic_objects;
+    std::uint64_t dropped_triangles = 0;  ///< not finite, left out by the import
+    std::vector<std::string> warnings;    ///< one sentence each
+
+    [[nodiscard]] std::uint64_t static_triangles() const;
+    [[nodiscard]] std::uint64_t dynamic_triangles() const;  ///< as placed
+    [[nodiscard]] std::uint64_t static_objects() const;
+    [[nodiscard]] std::uint64_t vertex_count() const;  ///< as stored
+    [[nodiscard]] std::uint64_t vertex_bytes() const;
+    [[nodiscard]] std::uint64_t index_bytes() const;  ///< of batches and meshes, as stored
+    /// Box of everything, static and dynamic, relative to `origin`.
+    [[nodiscard]] Aabb bounds() const;
+    /// The static batches as spans into this scene; batch i is `BatchId{i}`.
+    [[nodiscard]] std::vector<TriangleBatch> triangle_batches() const;
+};
+
+}  // namespace rhview

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// Collects placed triangles into static batches, one per material and vertex format.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rhview/base/result.h"
+#include "rhview/scenes/scene.h"
+
+namespace rhview {
+
+/// Triangles in their own space, owned by the caller. `normals` and `colours` are empty or one per position.
+/// `indices.size()` is a multiple of three, every index is below `positions.size()`.
+struct MeshPiece {
+    std::span<const glm::vec3> positions;
+    std::span<const glm::vec3> normals;  ///< unit; a zero or non-finite one is replaced by +y
+    std::span<const PackedColour> colours;
+    std::span<const std::uint32_t> indices;
+};
+
+class SceneBuilder {
+  public:
+    /// Positions are stored relative to `origin`.
+    explicit SceneBuilder(const glm::dvec3& origin = glm::dvec3(0.0));
+
+    MaterialId add_material(Material material);
+
+    /// Adds one static object: only the vertices that its triangles use are stored, in order of first use. Triangles
+    /// with a non-finite corner are dropped and counted. A mirroring transform swaps each triangle's last two indices,
+    /// so that the outside stays outside. An object without triangles adds nothing.
+    void add_static(MaterialId material, const MeshPiece& piece, const glm::dmat4& world_from_piece = glm::dmat4(1.0));
+
+    /// Adds a mesh for dynamic objects, in its own space; nothing if no finite triangle is left.
+    std::optional<MeshId> add_mesh(MaterialId material, const MeshPiece& piece);
+    void add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh);
+
+    void add_warning(std::string sentence);
+
+    /// Room for what is about to be added to the pool and batch of this material and format.
+    void reserve(MaterialId material, bool normals, bool colours, std::size_t vertices, std::size_t indices);
+
+    /// The scene, or an error when nothing drawable was added or a pool has more than 2^32 - 1 vertices or indices.
+    /// The builder is empty afterwards.
+    Result<Scene> finish(std::string name);
+
+  private:
+    std::uint32_t pool_for(bool normals, bool colours);
+    SceneBatch& batch_for(MaterialId material, std::uint32_t pool);
+    void append(const MeshPiece& piece, const glm::dmat4& target_from_piece, std::uint32_t pool,
+                std::vector<std::uint32_t>& indices, Aabb& bounds);
+
+    Scene scene_;
+    std::vector<std::uint32_t> pool_of_format_;   ///< [normals + 2 * colours]
+    std::vector<std::uint32_t> batch_of_;         ///< [material * 4 + format]
+    std::vector<std::uint32_t> new_index_;        ///< scratch: piece vertex -> pool vertex
+    bool too_large_ = false;
+};
+
+}  // namespace rhview
