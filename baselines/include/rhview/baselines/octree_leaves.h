@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// Method `octree`: a plain octree, every leaf that may be visible drawn on its own.
+#pragma once
+
+#include "rhview/pipeline/seed_planner.h"
+
+namespace rhview {
+
+class OctreeLeaves final : public FramePlanner {
+  public:
+    /// `octree` outlives the planner.
+    explicit OctreeLeaves(const RhOctree& octree) : octree_(octree) {}
+
+    void plan(const FrameInput& input, FramePlan& plan) override;
+    [[nodiscard]] Aabb bounds_of(std::uint32_t chosen) const override;
+
+  private:
+    const RhOctree& octree_;
+    NodeList list_;
+    BatchSorter sorter_;
+};
+
+}  // namespace rhview

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "output_file.h"
+#include "progress.h"
+#include "scene_source.h"
+#include "verbs.h"
+
+namespace rhview::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Scene& scene) {
+    const Aabb bounds = scene.bounds();
+    const auto world = [&](const glm::vec3& p) {
+        const glm::dvec3 w = scene.origin + glm::dvec3(p);
+        return Json{w.x, w.y, w.z};
+    };
+    Json materials = Json::array();
+    for (const Material& material : scene.materials)
+        materials.push_back(
+            {{"name", material.name}, {"two_sided", material.two_sided}, {"alpha_tested", material.alpha_tested}});
+    return {{"schema", "rhview.info/1"},
+            {"name", scene.name},
+            {"triangles", scene.static_triangles() + scene.dynamic_triangles()},
+            {"static_triangles", scene.static_triangles()},
+            {"static_objects", scene.static_objects()},
+            {"dynamic_objects", scene.dynamic_objects.size()},
+            {"dynamic_triangles", scene.dynamic_triangles()},
+            {"vertices", scene.vertex_count()},
+            {"vertex_bytes", scene.vertex_bytes()},
+            {"index_bytes", scene.index_bytes()},
+            {"batches", scene.batches.size()},
+            {"materials", materials},
+            {"extent", {{"min", world(bounds.min)}, {"max", world(bounds.max)}}},
+            {"dropped_triangles", scene.dropped_triangles},
+            {"warnings", scene.warnings}};
+}
+
+std::string grouped(std::uint64_t value) {
+    std::string digits = std::to_string(value);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+    return digits;
+}
+
+void print(const Scene& scene) {
+    const Aabb bounds = scene.bounds();
+    const glm::vec3 extent = bounds.extent();
+    std::size_t two_sided = 0, alpha_tested = 0;
+    for (const Material& material : scene.materials) {
+        two_sided += material.two_sided;
+        alpha_tested += material.alpha_tested;
+    }
+    fmt::print("{}\n", scene.name);
+    fmt::print("  triangles   {} static in {} objects", grouped(scene.static_triangles()),
+               grouped(scene.static_objects()));
+    if (!scene.dynamic_objects.empty())
+        fmt::print(", {} placed by {} dynamic objects", grouped(scene.dynamic_triangles()),
+                   grouped(scene.dynamic_objects.size()));
+    fmt::print("\n  vertices    {} ({} MiB), indices {} MiB\n", grouped(scene.vertex_count()), scene.vertex_bytes() >> 20,
+               scene.index_bytes() >> 20);
+    fmt::print("  materials   {} ({} two-sided, {} alpha-tested) in {} batches\n", scene.materials.size(), two_sided,
+               alpha_tested, scene.batches.size());
+    fmt::print("  extent      {:.6g} x {:.6g} x {:.6g} m around ({:.6g}, {:.6g}, {:.6g})\n", extent.x, extent.y, extent.z,
+               scene.origin.x + static_cast<double>(bounds.centre().x),
+               scene.origin.y + static_cast<double>(bounds.centre().y),
+               scene.origin.z + static_cast<double>(bounds.centre().z));
+    for (const std::string& warning : scene.warnings) fmt::print("  warning     {}\n", warning);
+}
+
+}  // namespace
+
+Result<int> run_info(const InfoOptions& options) {
+    std::optional<OutputFile> json;
+    if (options.json) {
+        Result<OutputFile> file = OutputFile::open(*options.json);
+        if (!file) return file.error();
+        json.emplace(std::move(file).value());
+    }
+    Result<SceneAndPath> loaded = [&] {
+        Progress progress;
+        progress.say("loading " + options.scene);
+        return load_scene(options.scene);
+    }();
+    if (!loaded) return loaded.error();
+    print(loaded->scene);
+    if (json) {
+        const std::string text = to_json(loaded->scene).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        if (Status status = json->commit(text); !status) return status.error();
+    }
+    return kDone;
+}
+
+}  // namespace rhview::cli

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <exception>
+
+#include "method.h"
+#include "rhview/base/log.h"
+#include "rhview/base/version.h"
+#include "verbs.h"
+
+namespace rhview::cli {
+namespace {
+
+constexpr std::array<std::string_view, 3> kVerbs{"scenes", "info", "walk"};
+
+int fail(std::string_view sentence) {
+    fmt::print(stderr, "rhview: {}\n", sentence);
+    return kBadInput;
+}
+
+void print_log(LogLevel level, std::string_view message) {
+    if (level == LogLevel::Error) fmt::print(stderr, "rhview: {}\n", message);
+}
+
+void add_info(CLI::App& app, InfoOptions& options) {
+    CLI::App* info = app.add_subcommand("info", "What is in a scene");
+    info->add_option("SCENE", options.scene, "A file (.glb .gltf .obj .ply) or a named scene")->required();
+    info->add_option("--json", options.json, "Write it as JSON")->type_name("FILE");
+}
+
+void add_walk(CLI::App& app, WalkOptions& options) {
+    CLI::App* walk = app.add_subcommand("walk", "One culling method along a camera path, headless");
+    walk->add_option("SCENE", options.scene, "A file (.glb .gltf .obj .ply) or a named scene")->required();
+    walk->add_option("--method", options.method, fmt::format("{}", fmt::join(method_names(), ", ")))
+        ->type_name("M")
+        ->capture_default_str();
+    walk->add_option("--mode", options.mode, "exact: everything is proved in the same frame")->capture_default_str();
+    walk->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
+        ->type_name("FILE");
+    walk->add_option("--frames", options.frames, "Frames to measure")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    walk->add_option("--warmup", options.warmup, "Frames drawn before, not measured")
+        ->check(CLI::Range(0, 1'000'000))
+        ->capture_default_str();
+    walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
+    walk->add_option("--leaf", options.leaf, "Triangles per octree leaf, at most")
+        ->check(CLI::Range(1u, 4'000'000'000u))
+        ->capture_default_str();
+    walk->add_option("--submission", options.submission, "plain: a call per range; multi: a multi-draw per batch")
+        ->capture_default_str();
+    walk->add_flag("--check", options.check, "Compare every frame's depth with drawing everything");
+    walk->add_option("--check-every", options.check_every, "Check every N-th frame only (implies --check)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000))
+        ->each([&options](const std::string&) { options.check = true; });
+    walk->add_option("--json", options.json, "Write the results as JSON (rhview.walk/1)")->type_name("FILE");
+    walk->add_option("--csv", options.csv, "Write a line per frame")->type_name("FILE");
+    walk->add_option("--images", options.images, "Write a PNG of every 30th frame")->type_name("DIR");
+    walk->add_option("--images-every", options.images_every, "Another interval for --images")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000));
+}
+
+/// CLI11's message as one sentence.
+std::string one_sentence(std::string text) {
+    std::ranges::replace(text, '\n', ' ');
+    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+    return text;
+}
+
+int run(int argc, char** argv) {
+    if (argc > 1 && argv[1][0] != '-' && std::ranges::find(kVerbs, std::string_view(argv[1])) == kVerbs.end())
+        return fail(fmt::format("unknown verb '{}'; the verbs are {}", argv[1], fmt::join(kVerbs, ", ")));
+
+    CLI::App app("rhview: the cheapest list of draw calls that shows every visible pixel", "rhview");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", kVersion);
+    const CLI::App* scenes = app.add_subcommand("scenes", "The named procedural scenes, their parameters and sizes");
+    InfoOptions info;
+    add_info(app, info);
+    WalkOptions walk;
+    add_walk(app, walk);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& done) {
+        return app.exit(done);
+    } catch (const CLI::ParseError& error) {
+        if (argc < 2)
+            return fail(fmt::format("which verb? The verbs are {}; rhview --help tells more", fmt::join(kVerbs, ", ")));
+        return fail(one_sentence(error.what()) + "; see rhview " + argv[1] + " --help");
+    }
+    const Result<int> code = app.got_subcommand(scenes->get_name()) ? run_scenes()
+                             : app.got_subcommand("info")           ? run_info(info)
+                                                                    : run_walk(walk);
+    return code ? *code : fail(code.error().message);
+}
+
+}  // namespace
+}  // namespace rhview::cli
+
+int main(int argc, char** argv) {
+    rhview::set_log_callback(rhview::cli::print_log);
+    try {
+        return rhview::cli::run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return rhview::cli::fail("out of memory; choose a smaller scene");
+    } catch (const std::exception& error) {
+        return rhview::cli::fail(error.what());
+    }
+}

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "rhview/base/result.h"
+
+namespace rhview::cli {
+
+/// Exit codes of the program.
+inline constexpr int kDone = 0;
+inline constexpr int kCheckFailed = 1;
+inline constexpr int kBadInput = 2;
+
+struct InfoOptions {
+    std::string scene;
+    std::optional<std::filesystem::path> json;
+};
+
+struct WalkOptions {
+    std::string scene;
+    std::string method = "rhview";
+    std::string mode = "exact";
+    std::string submission = "plain";
+    std::string size = "1280x720";
+    std::optional<std::filesystem::path> path;
+    int frames = 120;
+    int warmup = 8;
+    std::uint32_t leaf = 4096;
+    bool check = false;
+    int check_every = 1;
+    int images_every = 30;
+    std::optional<std::filesystem::path> json;
+    std::optional<std::filesystem::path> csv;
+    std::optional<std::filesystem::path> images;
+};
+
+/// Each verb prints its answer and returns the exit code, or an error that ends the program with `kBadInput`.
+Result<int> run_scenes();
+Result<int> run_info(const InfoOptions& options);
+Result<int> run_walk(const WalkOptions& options);
+
+}  // namespace rhview::cli

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "walk_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "statistics.h"
+
+namespace rhview::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Field>
+std::vector<double> column(const WalkReport& report, Field field) {
+    std::vector<double> values;
+    values.reserve(report.frames.size());
+    for (const FrameRecord& frame : report.frames) values.push_back(static_cast<double>(field(frame)));
+    return values;
+}
+
+template <class Field>
+Json statistics(const WalkReport& report, Field field) {
+    const Statistics s = summarise(column(report, field));
+    return {{"mean", s.mean}, {"median", s.median}, {"p95", s.p95}, {"max", s.max}};
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json missing_pixels_json(const WalkReport& report) {
+    if (report.checked_frames() == 0) return nullptr;
+    std::uint64_t max = 0;
+    int frames = 0;
+    for (const FrameRecord& frame : report.frames) {
+        max = std::max(max, frame.missing_pixels.value_or(0));
+        frames += frame.missing_pixels.value_or(0) > 0;
+    }
+    return {{"total", report.missing_pixels()},
+            {"max", max},
+            {"frames", frames},
+            {"checked_frames", report.checked_frames()}};
+}
+
+Json summary_json(const WalkReport& report) {
+    const bool has_gpu = !report.frames.empty() && report.frames.front().gpu_ms.has_value();
+    const bool has_objects = report.scene.dynamic_objects > 0;
+    Json summary;
+    summary["draw_calls"] = statistics(report, [](const FrameRecord& f) { return f.draw_calls; });
+    summary["sub_draws"] = statistics(report, [](const FrameRecord& f) { return f.sub_draws; });
+    summary["indices"] = statistics(report, [](const FrameRecord& f) { return f.indices; });
+    summary["queries"] = statistics(report, [](const FrameRecord&) { return 0.0; });  // no method issues any
+    summary["nodes_visited"] = statistics(report, [](const FrameRecord& f) { return f.nodes_visited; });
+    summary["cull_ms"] = statistics(report, [](const FrameRecord& f) { return f.cull_ms; });
+    summary["frame_ms"] = statistics(report, [](const FrameRecord& f) { return f.frame_ms; });
+    summary["gpu_ms"] =
+        has_gpu ? statistics(report, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); }) : Json(nullptr);
+    summary["predicted_ms"] = nullptr;
+    summary["prediction_error"] = nullptr;
+    summary["visible_objects"] =
+        has_objects ? statistics(report, [](const FrameRecord& f) { return f.visible_objects; }) : Json(nullptr);
+    summary["lod_error_px"] = nullptr;
+    summary["missing_pixels"] = missing_pixels_json(report);
+    summary["plan_hash"] = fmt::format("{:016x}", report.plan_hash);
+    return summary;
+}
+
+std::string table_row(const char* name, int decimals, const std::vector<double>& values) {
+    const Statistics s = summarise(values);
+    return fmt::format("  {:<16}{:>14.{}f}{:>14.{}f}{:>14.{}f}{:>14.{}f}\n", name, s.mean, decimals, s.median, decimals,
+                       s.p95, decimals, s.max, decimals);
+}
+
+}  // namespace
+
+int WalkReport::checked_frames() const {
+    return static_cast<int>(
+        std::ranges::count_if(frames, [](const FrameRecord& f) { return f.missing_pixels.has_value(); }));
+}
+
+std::uint64_t WalkReport::missing_pixels() const {
+    std::uint64_t total = 0;
+    for (const FrameRecord& frame : frames) total += frame.missing_pixels.value_or(0);
+    return total;
+}
+
+std::string to_json(const WalkReport& report) {
+    Json json;
+    json["schema"] = "rhview.walk/1";
+    json["scene"] = {{"name", report.scene.name},
+                     {"triangles", report.scene.static_triangles + report.scene.dynamic_triangles},
+                     {"static_triangles", report.scene.static_triangles},
+                     {"dynamic_objects", report.scene.dynamic_objects},
+                     {"dynamic_triangles", report.scene.dynamic_triangles},
+                     {"materials", report.scene.materials}};
+    json["device"] = {
+        {"renderer", report.device.renderer}, {"version", report.device.version}, {"timer", report.device.timer}};
+    json["profile"] = {
+        {"c0_ns", nullptr}, {"c1_ns", nullptr}, {"c3_ns", nullptr}, {"query_ns", nullptr}, {"source", nullptr}};
+    json["method"] = report.method;
+    json["mode"] = report.mode;
+    json["submission"] = report.submission;
+    json["leaf"] = report.build.nodes ? Json(report.leaf) : Json(nullptr);
+    json["frames"] = report.frames.size();
+    json["size"] = {report.width, report.height};
+    json["build"] = {{"ms", or_null(report.build.ms)},
+                     {"nodes", or_null(report.build.nodes)},
+                     {"leaves", or_null(report.build.leaves)},
+                     {"replica_bytes", report.build.replica_bytes},
+                     {"index_bytes", report.build.index_bytes},
+                     {"vertex_bytes", report.build.vertex_bytes}};
+    json["summary"] = summary_json(report);
+    json["per_frame"] = Json::array();
+    for (const FrameRecord& f : report.frames)
+        json["per_frame"].push_back({{"frame", f.frame},
+                                     {"draw_calls", f.draw_calls},
+                                     {"sub_draws", f.sub_draws},
+                                     {"indices", f.indices},
+                                     {"queries", 0},
+                                     {"nodes_visited", f.nodes_visited},
+                                     {"cull_ms", f.cull_ms},
+                                     {"frame_ms", f.frame_ms},
+                                     {"gpu_ms", or_null(f.gpu_ms)},
+                                     {"predicted_ms", nullptr},
+                                     {"missing_pixels", or_null(f.missing_pixels)}});
+    // A file name need not be UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_csv(const WalkReport& report) {
+    std::string csv = "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels\n";
+    for (const FrameRecord& f : report.frames) {
+        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{}\n", f.frame, f.draw_calls, f.sub_draws, f.indices,
+                           f.nodes_visited, f.cull_ms, f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
+                           f.missing_pixels ? std::to_string(*f.missing_pixels) : "");
+    }
+    return csv;
+}
+
+std::string to_table(const WalkReport& report) {
+    std::string table = fmt::format(
+        "{}: {:.2f} M triangles, {} material{}{}\n", report.scene.name,
+        static_cast<double>(report.scene.static_triangles + report.scene.dynamic_triangles) * 1e-6,
+        report.scene.materials, report.scene.materials == 1 ? "" : "s",
+        report.scene.dynamic_objects > 0 ? fmt::format(", {} dynamic objects", report.scene.dynamic_objects) : "");
+    if (report.build.nodes)
+        table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, built in {:.0f} ms\n",
+                             *report.build.nodes, *report.build.leaves, report.leaf, report.build.ms.value_or(0.0));
+    table += fmt::format("{}: {} frames of {}x{} on {}, timed by the {}\n\n", report.method, report.frames.size(),
+                         report.width, report.height, report.device.renderer,
+                         report.device.timer == "gpu" ? "GPU and the wall clock" : "wall clock");
+    table += fmt::format("  {:<16}{:>14}{:>14}{:>14}{:>14}\n", "per frame", "mean", "median", "p95", "max");
+    const auto row = [&](const char* name, int decimals, auto field) {
+        table += table_row(name, decimals, column(report, field));
+    };
+    row("draw calls", 1, [](const FrameRecord& f) { return f.draw_calls; });
+    if (report.submission != "plain") row("sub-draws", 1, [](const FrameRecord& f) { return f.sub_draws; });
+    row("indices", 0, [](const FrameRecord& f) { return f.indices; });
+    row("nodes visited", 0, [](const FrameRecord& f) { return f.nodes_visited; });
+    if (report.scene.dynamic_objects > 0)
+        row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
+    row("cull ms", 3, [](const FrameRecord& f) { return f.cull_ms; });
+    row("frame ms", 2, [](const FrameRecord& f) { return f.frame_ms; });
+    if (!report.frames.empty() && report.frames.front().gpu_ms)
+        row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
+    if (const int checked = report.checked_frames(); checked > 0)
+        table += fmt::format("\n  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
+                             checked == 1 ? "" : "s");
+    return table;
+}
+
+}  // namespace rhview::cli

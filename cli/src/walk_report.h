@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rhview::cli {
+
+/// What was counted and measured in one frame; absent is what was not measured.
+struct FrameRecord {
+    int frame = 0;
+    std::uint64_t draw_calls = 0;
+    std::uint64_t sub_draws = 0;
+    std::uint64_t indices = 0;
+    std::uint64_t nodes_visited = 0;
+    std::uint64_t visible_objects = 0;
+    double cull_ms = 0.0;
+    double frame_ms = 0.0;
+    std::optional<double> gpu_ms;
+    std::optional<std::uint64_t> missing_pixels;
+};
+
+/// One method along one path: the run of `rhview.walk/1`.
+struct WalkReport {
+    struct {
+        std::string name;
+        std::uint64_t static_triangles = 0;
+        std::uint64_t dynamic_objects = 0;
+        std::uint64_t dynamic_triangles = 0;
+        std::uint64_t materials = 0;
+    } scene;
+    struct {
+        std::string renderer;
+        std::string version;
+        std::string timer;
+    } device;
+    struct {
+        std::optional<double> ms;
+        std::optional<std::uint64_t> nodes;
+        std::optional<std::uint64_t> leaves;
+        std::uint64_t replica_bytes = 0;
+        std::uint64_t index_bytes = 0;
+        std::uint64_t vertex_bytes = 0;
+    } build;
+    std::string method;
+    std::string mode;
+    std::string submission;
+    std::uint32_t leaf = 0;
+    int width = 0;
+    int height = 0;
+    std::vector<FrameRecord> frames;
+    std::uint64_t plan_hash = 0;
+
+    [[nodiscard]] int checked_frames() const;
+    [[nodiscard]] std::uint64_t missing_pixels() const;
+};
+
+std::string to_json(const WalkReport& report);
+std::string to_csv(const WalkReport& report);
+/// For people.
+std::string to_table(const WalkReport& report);
+
+}  // namespace rhview::cli

@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "frame_pictures.h"
+#include "method.h"
+#include "output_file.h"
+#include "progress.h"
+#include "rhview/gl/context.h"
+#include "rhview/gl/timer.h"
+#include "scene_source.h"
+#include "verbs.h"
+#include "walk_report.h"
+
+namespace rhview::cli {
+namespace {
+
+constexpr glm::vec3 kSky(0.74f, 0.82f, 0.90f);
+
+struct PictureSize {
+    int width = 0;
+    int height = 0;
+};
+
+Result<PictureSize> parse_size(const std::string& text) {
+    PictureSize size;
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+        const auto height = std::from_chars(width.ptr + 1, end, size.height);
+        if (height.ec == std::errc() && height.ptr == end && size.width > 0 && size.height > 0) return size;
+    }
+    return Error{"--size " + text + ": not a picture size; write WIDTHxHEIGHT, both at least 1, as in 1280x720"};
+}
+
+Status check_options(const WalkOptions& options) {
+    const std::vector<std::string> methods = method_names();
+    if (std::ranges::find(methods, options.method) == methods.end())
+        return Error{fmt::format("--method {}: unknown; the methods are {}", options.method, fmt::join(methods, ", "))};
+    if (options.mode != "exact")
+        return Error{fmt::format("--mode {}: unknown; the only mode is exact", options.mode)};
+    if (options.submission != "plain" && options.submission != "multi")
+        return Error{fmt::format("--submission {}: unknown; write plain or multi", options.submission)};
+    return success();
+}
+
+/// Where the results go; opened before the work, so that an unwritable place is told at once.
+struct Outputs {
+    std::optional<OutputFile> json;
+    std::optional<OutputFile> csv;
+
+    Status open(const WalkOptions& options) {
+        const auto open_one = [](const auto& file, std::optional<OutputFile>& output) -> Status {
+            if (!file) return success();
+            Result<OutputFile> opened = OutputFile::open(*file);
+            if (!opened) return opened.error();
+            output.emplace(std::move(opened).value());
+            return success();
+        };
+        if (Status status = open_one(options.json, json); !status) return status;
+        if (Status status = open_one(options.csv, csv); !status) return status;
+        return options.images ? prepare_folder(*options.images) : success();
+    }
+
+    Status commit(const WalkReport& report) {
+        if (json)
+            if (Status status = json->commit(to_json(report)); !status) return status;
+        return csv ? csv->commit(to_csv(report)) : success();
+    }
+};
+
+/// Everything a walk needs on the device, and the walk itself.
+class Walk {
+  public:
+    Walk(const WalkOptions& options, const SceneAndPath& loaded, PreparedMethod& method, const gl::DeviceInfo& device)
+        : options_(options),
+          scene_(loaded.scene),
+          path_(loaded.path),
+          method_(method),
+          reference_(make_reference(loaded.scene)),
+          bounds_(loaded.scene.bounds()),
+          clip_depth_(device.clip_control ? ClipDepth::ReversedZeroToOne : ClipDepth::NegativeOneToOne) {
+        for (const DynamicObject& object : scene_.dynamic_objects)
+            object_boxes_.push_back(
+                transform_box(object.scene_from_mesh, scene_.meshes[index_of(object.mesh)].bounds));
+    }
+
+    Status run(PictureSize size, WalkReport& report) {
+        if (Status status = set_up(size, report); !status) return status;
+        Progress progress;
+        for (int i = 0; i < options_.warmup; ++i) {
+            progress.show("warm-up", i, options_.warmup);
+            draw_frame(0);
+        }
+        report.plan_hash = plan_hash({});
+        for (int frame = 0; frame < options_.frames; ++frame) {
+            progress.show("walking", frame, options_.frames);
+            FrameRecord record = draw_frame(frame);
+            report.plan_hash = plan_hash(plan_, report.plan_hash);
+            const bool checked = options_.check && frame % options_.check_every == 0;
+            const bool pictured = options_.images && frame % options_.images_every == 0;
+            if (checked || pictured)
+                if (Status status = compare_with_everything(frame, checked, pictured, record); !status) return status;
+            report.frames.push_back(record);
+        }
+        const std::string error = gl::take_error();
+        return error.empty() ? success() : Status(Error{"OpenGL reported: " + error});
+    }
+
+  private:
+    Status set_up(PictureSize size, WalkReport& report) {
+        Result<gl::RenderTarget> target = gl::RenderTarget::create(size.width, size.height);
+        if (!target) return Error{"--size: " + target.error().message};
+        target_.emplace(std::move(target).value());
+        Result<gl::Executor> executor = gl::Executor::create();
+        if (!executor) return executor.error();
+        executor_.emplace(std::move(executor).value());
+        Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(scene_, method_.static_indices());
+        if (!buffers) return buffers.error();
+        buffers_.emplace(std::move(buffers).value());
+        const Result<gl::TimerCheck> timer = gl::check_gpu_timer();
+        if (!timer) return timer.error();
+        if (timer->gpu_timer_is_whole()) gpu_timer_.emplace();
+        report.device.timer = gpu_timer_ ? "gpu" : "wall";
+        if (options_.images) {
+            Result<ViewFromAbove> above = ViewFromAbove::create(size.width, size.height);
+            if (!above) return above.error();
+            above_.emplace(std::move(above).value());
+        }
+        return success();
+    }
+
+    [[nodiscard]] FrameInput input_of(int frame) const {
+        const double aspect = static_cast<double>(target_->width()) / target_->height();
+        return {path_.view_of_frame(frame, options_.frames, aspect, clip_depth_), scene_.origin, object_boxes_};
+    }
+
+    FrameRecord draw_frame(int frame) {
+        const FrameInput input = input_of(frame);
+        target_->begin(clip_depth_, kSky);
+        gl::finish();
+        FrameRecord record;
+        record.frame = frame;
+        const gl::WallTimer timer;
+        method_.planner->plan(input, plan_);
+        record.cull_ms = timer.elapsed_ms();
+        if (gpu_timer_) gpu_timer_->begin();
+        gl::DrawOptions draw;
+        draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
+        const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, input.culling_view, draw);
+        if (gpu_timer_) gpu_timer_->end();
+        gl::finish();
+        record.frame_ms = timer.elapsed_ms();
+        if (gpu_timer_) record.gpu_ms = gpu_timer_->read_ms();
+        record.draw_calls = counters.draw_calls;
+        record.sub_draws = counters.sub_draws;
+        record.indices = counters.indices;
+        record.nodes_visited = plan_.nodes_visited;
+        record.visible_objects = plan_.objects.size();
+        return record;
+    }
+
+    /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
+    Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
+        const FrameInput input = input_of(frame);
+        target_->read_depth(culled_depths_);
+        std::optional<gl::Picture> culled;
+        if (pictured) culled.emplace(target_->read_colour());
+        reference_->plan(input, everything_);
+        target_->begin(clip_depth_, kSky);
+        executor_->draw(everything_, *buffers_, input.culling_view);
+        target_->read_depth(reference_depths_);
+        const std::size_t missing = gl::count_missing_pixels(culled_depths_, reference_depths_);
+        if (checked) record.missing_pixels = missing;
+        if (!pictured) return success();
+
+        gl::Picture reference = target_->read_colour();
+        gl::Picture difference = gl::difference_picture(reference, culled_depths_, reference_depths_);
+        gl::Picture above = above_->draw(everything_, plan_, *method_.planner, *buffers_, bounds_, input.culling_view,
+                                         *executor_);
+        culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
+                                  record.draw_calls, static_cast<double>(record.indices) * 1e-6));
+        reference.label("everything drawn");
+        difference.label(fmt::format("missing pixels (red): {}", missing));
+        above.label("from above: drawn orange, not drawn grey, nodes blue, frustum red");
+        return gl::sheet(*culled, reference, difference, above)
+            .save_png(*options_.images / fmt::format("frame_{:04}.png", frame));
+    }
+
+    const WalkOptions& options_;
+    const Scene& scene_;
+    const CameraPath& path_;
+    PreparedMethod& method_;
+    std::unique_ptr<FramePlanner> reference_;
+    Aabb bounds_;
+    ClipDepth clip_depth_;
+    std::vector<Aabb> object_boxes_;
+    std::optional<gl::RenderTarget> target_;
+    std::optional<gl::Executor> executor_;
+    std::optional<gl::SceneBuffers> buffers_;
+    std::optional<gl::GpuTimer> gpu_timer_;
+    std::optional<ViewFromAbove> above_;
+    FramePlan plan_;
+    FramePlan everything_;
+    std::vector<float> culled_depths_;
+    std::vector<float> reference_depths_;
+};
+
+WalkReport describe(const WalkOptions& options, const Scene& scene, const PreparedMethod& method,
+                    const gl::DeviceInfo& device, PictureSize size) {
+    WalkReport report;
+    report.scene = {scene.name, scene.static_triangles(), scene.dynamic_objects.size(), scene.dynamic_triangles(),
+                    scene.materials.size()};
+    report.device = {device.renderer, device.version, "wall"};
+    report.build.ms = method.build_ms;
+    if (method.octree != nullptr) {
+        report.build.nodes = method.octree->nodes().size();
+        report.build.leaves = method.octree->leaf_count();
+    }
+    report.build.index_bytes = scene.index_bytes();
+    report.build.vertex_bytes = scene.vertex_bytes();
+    report.method = options.method;
+    report.mode = options.mode;
+    report.submission = options.submission;
+    report.leaf = options.leaf;
+    report.width = size.width;
+    report.height = size.height;
+    return report;
+}
+
+Result<SceneAndPath> load(const WalkOptions& options) {
+    std::optional<CameraPath> path;
+    if (options.path) {
+        Result<CameraPath> from_file = load_camera_path(*options.path);
+        if (!from_file) return from_file.error();
+        path = std::move(from_file).value();
+    }
+    Result<SceneAndPath> loaded = load_scene(options.scene);
+    if (loaded && path) loaded->path = std::move(*path);
+    return loaded;
+}
+
+}  // namespace
+
+Result<int> run_walk(const WalkOptions& options) {
+    if (Status status = check_options(options); !status) return status.error();
+    const Result<PictureSize> size = parse_size(options.size);
+    if (!size) return size.error();
+    Outputs outputs;
+    if (Status status = outputs.open(options); !status) return status.error();
+
+    Progress progress;
+    Result<gl::Context> context = gl::Context::create_headless();
+    if (!context) return context.error();
+    progress.say("loading " + options.scene);
+    const Result<SceneAndPath> loaded = load(options);
+    if (!loaded) return loaded.error();
+    progress.say("building");
+    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, options.leaf);
+    if (!method) return method.error();
+
+    WalkReport report = describe(options, loaded->scene, *method, context->device(), *size);
+    {
+        Walk walk(options, *loaded, *method, context->device());
+        if (Status status = walk.run(*size, report); !status) return status.error();
+    }
+    if (Status status = outputs.commit(report); !status) return status.error();
+    progress.say("");
+    fmt::print("{}", to_table(report));
+    return report.missing_pixels() > 0 ? kCheckFailed : kDone;
+}
+
+}  // namespace rhview::cli

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// An OpenGL context without a window: EGL, on a GPU where there is one, else on a software renderer.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rhview/base/result.h"
+
+namespace rhview::gl {
+
+struct DeviceInfo {
+    std::string renderer;
+    std::string version;
+    bool software = false;      ///< drawn by the CPU
+    bool clip_control = false;  ///< `ClipDepth::ZeroToOne` and `ReversedZeroToOne` can be drawn
+};
+
+struct ContextOptions {
+    bool debug = false;  ///< a debug context: the driver checks more and is slower
+};
+
+/// Current on the thread that made it, until destroyed. The driver's debug messages go to the library's log.
+class Context {
+  public:
+    /// OpenGL 4.5 core, or 4.3 where that is all there is. An error names what was found on each device.
+    static Result<Context> create_headless(const ContextOptions& options = {});
+
+    Context(Context&&) noexcept;
+    Context& operator=(Context&&) noexcept;
+    ~Context();
+
+    [[nodiscard]] const DeviceInfo& device() const;
+
+  private:
+    struct State;
+    explicit Context(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// Waits until everything submitted has been drawn.
+void finish();
+
+/// Clears the error flags; the first of them as text, empty if there was none.
+std::string take_error();
+
+}  // namespace rhview::gl

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// Owners of OpenGL names. Made and destroyed while their context is current.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+namespace rhview::gl {
+
+enum class HandleKind { Buffer, VertexArray, Program, Framebuffer, Renderbuffer, Query };
+
+void delete_handle(HandleKind kind, std::uint32_t name);
+
+template <HandleKind Kind>
+class Handle {
+  public:
+    Handle() = default;
+    explicit Handle(std::uint32_t name) : name_(name) {}
+    Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    ~Handle() {
+        if (name_ != 0) delete_handle(Kind, name_);
+    }
+
+    [[nodiscard]] std::uint32_t name() const { return name_; }
+
+  private:
+    std::uint32_t name_ = 0;
+};
+
+using Buffer = Handle<HandleKind::Buffer>;
+using VertexArray = Handle<HandleKind::VertexArray>;
+using Program = Handle<HandleKind::Program>;
+using Framebuffer = Handle<HandleKind::Framebuffer>;
+using Renderbuffer = Handle<HandleKind::Renderbuffer>;
+using Query = Handle<HandleKind::Query>;
+
+}  // namespace rhview::gl

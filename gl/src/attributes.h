@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+namespace rhview::gl {
+
+/// Vertex attribute locations, as the shaders name them.
+inline constexpr unsigned kPositionAttribute = 0;
+inline constexpr unsigned kNormalAttribute = 1;
+inline constexpr unsigned kColourAttribute = 2;
+
+}  // namespace rhview::gl

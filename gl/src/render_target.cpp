@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "rhview/gl/render_target.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <string>
+
+namespace rhview::gl {
+namespace {
+
+GLuint make_storage(GLenum format, int width, int height) {
+    GLuint name = 0;
+    glGenRenderbuffers(1, &name);
+    glBindRenderbuffer(GL_RENDERBUFFER, name);
+    glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+    return name;
+}
+
+}  // namespace
+
+Result<RenderTarget> RenderTarget::create(int width, int height) {
+    GLint limit = 0;
+    GLint viewport[2] = {};
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &limit);
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    limit = std::min({limit, viewport[0], viewport[1]});
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    if (width < 1 || height < 1 || width > limit || height > limit)
+        return Error{"a picture of " + size + " is not possible here; each side must be from 1 to " +
+                     std::to_string(limit)};
+    RenderTarget target;
+    target.width_ = width;
+    target.height_ = height;
+    target.colour_ = Renderbuffer(make_storage(GL_RGBA8, width, height));
+    target.depth_ = Renderbuffer(make_storage(GL_DEPTH_COMPONENT32F, width, height));
+    GLuint framebuffer = 0;
+    glGenFramebuffers(1, &framebuffer);
+    target.framebuffer_ = Framebuffer(framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.colour_.name());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth_.name());
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return Error{"the driver can't make a picture of " + size + " with 32-bit depth; choose a smaller one"};
+    return target;
+}
+
+void RenderTarget::begin(ClipDepth clip_depth, const glm::vec3& background) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glViewport(0, 0, width_, height_);
+    const GLfloat colour[4] = {background.r, background.g, background.b, 1.0f};
+    const GLfloat farthest = clip_depth == ClipDepth::ReversedZeroToOne ? 0.0f : 1.0f;
+    glDepthMask(GL_TRUE);
+    glClearBufferfv(GL_COLOR, 0, colour);
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+}
+
+void RenderTarget::read_depth(std::vector<float>& depths) {
+    depths.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+}
+
+Picture RenderTarget::read_colour() {
+    Picture picture(width_, height_);
+    const auto row_bytes = static_cast<std::size_t>(width_) * 3;
+    std::vector<std::uint8_t> rows(row_bytes * static_cast<std::size_t>(height_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+    for (int y = 0; y < height_; ++y)
+        std::copy_n(rows.data() + row_bytes * static_cast<std::size_t>(height_ - 1 - y), row_bytes, picture.row(y));
+    return picture;
+}
+
+std::size_t count_missing_pixels(std::span<const float> culled, std::span<const float> reference) {
+    RHVIEW_ASSERT(culled.size() == reference.size());
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < culled.size(); ++i)
+        missing += std::bit_cast<std::uint32_t>(culled[i]) != std::bit_cast<std::uint32_t>(reference[i]);
+    return missing;
+}
+
+}  // namespace rhview::gl

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+
+namespace rhview::gl {
+
+/// Remembers the state that drawing touches and puts it back: program, vertex array, generic attribute values, culling,
+/// front face, depth test, depth function, depth mask and clip control.
+class StateGuard {
+  public:
+    StateGuard();
+    ~StateGuard();
+    StateGuard(const StateGuard&) = delete;
+    StateGuard& operator=(const StateGuard&) = delete;
+
+  private:
+    int program_ = 0;
+    int vertex_array_ = 0;
+    int cull_face_mode_ = 0;
+    int front_face_ = 0;
+    int depth_function_ = 0;
+    int clip_origin_ = 0;
+    int clip_depth_ = 0;
+    std::uint8_t depth_mask_ = 0;
+    bool cull_face_ = false;
+    bool depth_test_ = false;
+    bool clip_control_ = false;
+    float attributes_[2][4] = {};  ///< normal and colour
+};
+
+}  // namespace rhview::gl

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// What every culling method looks like to a render loop.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rhview/base/aabb.h"
+#include "rhview/base/view.h"
+#include "rhview/frustum/frustum.h"
+#include "rhview/pipeline/frame_plan.h"
+
+namespace rhview {
+
+/// What a frame is planned from; the caller owns it.
+struct FrameInput {
+    View culling_view;                   ///< `validate` accepts it
+    glm::dvec3 scene_origin{0.0};      ///< world position of the zero of every box and vertex
+    std::span<const Aabb> object_boxes;  ///< of the dynamic objects, by `ObjectId`; contain what is drawn
+};
+
+/// One per view: it may remember earlier frames. Equal inputs in equal order give equal plans; after the largest frame
+/// seen nothing is allocated.
+class FramePlanner {
+  public:
+    virtual ~FramePlanner() = default;
+    /// Replaces `plan`. Nothing that may be visible is left out.
+    virtual void plan(const FrameInput& input, FramePlan& plan) = 0;
+    /// The box of an entry of `FramePlan::chosen`.
+    [[nodiscard]] virtual Aabb bounds_of(std::uint32_t chosen) const = 0;
+};
+
+/// Appends the objects whose box is not outside. Cost: one box test each.
+void append_visible_objects(const Frustum& frustum, std::span<const Aabb> boxes, std::vector<ObjectId>& objects);
+
+}  // namespace rhview

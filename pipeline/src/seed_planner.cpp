@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "rhview/pipeline/seed_planner.h"
+
+namespace rhview {
+
+void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frustum& frustum, const FrameInput& input,
+                        BatchSorter& sorter, FramePlan& plan) {
+    plan.clear();
+    append_ranges(octree, list, plan.opaque);
+    sorter.sort(plan.opaque, octree.batch_count());
+    append_visible_objects(frustum, input.object_boxes, plan.objects);
+    for (const NodeId node : list.nodes) plan.chosen.push_back(static_cast<std::uint32_t>(node));
+    plan.nodes_visited = list.nodes_visited;
+}
+
+void SeedPlanner::plan(const FrameInput& input, FramePlan& plan) {
+    const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
+    seed_draw_list(octree_, frustum, list_);
+    finish_octree_plan(octree_, list_, frustum, input, sorter_, plan);
+}
+
+Aabb SeedPlanner::bounds_of(std::uint32_t chosen) const {
+    return octree_.node(NodeId{chosen}).bounds;
+}
+
+}  // namespace rhview

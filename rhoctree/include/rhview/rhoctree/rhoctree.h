@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// The replicated octree over static triangles: an order of the indices in which every node is one contiguous range per
+/// batch.
+///
+/// Every triangle belongs to exactly one leaf, by its centroid; node boxes are refitted to their triangles, so they may
+/// overlap. Vertices stay where the engine has them. Shared and const once built: any number of views may read it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rhview/base/aabb.h"
+#include "rhview/base/ids.h"
+#include "rhview/base/result.h"
+#include "rhview/base/triangle_batch.h"
+
+namespace rhview {
+
+struct OctreeOptions {
+    /// A node with more triangles is split, unless all their centroids share one cell of the finest grid.
+    std::uint32_t max_leaf_triangles = 4096;
+};
+
+/// Part of the octree's index buffer that one batch draws.
+struct DrawRange {
+    BatchId batch{};
+    std::uint32_t first_index = 0;  ///< into `RhOctree::indices`
+    std::uint32_t index_count = 0;
+
+    friend bool operator==(const DrawRange&, const DrawRange&) = default;
+};
+
+/// Nodes stand in depth-first order: a node's first child follows it, its subtree ends before `end`.
+struct OctreeNode {
+    Aabb bounds;  ///< of its triangles
+    std::uint32_t end = 0;
+    std::uint32_t first_range = 0;
+    std::uint32_t range_count = 0;  ///< one per batch that has triangles here
+    std::uint32_t triangle_count = 0;
+};
+
+class RhOctree {
+  public:
+    [[nodiscard]] std::span<const OctreeNode> nodes() const { return nodes_; }
+    [[nodiscard]] const OctreeNode& node(NodeId id) const { return nodes_[index_of(id)]; }
+    [[nodiscard]] bool is_leaf(NodeId id) const { return nodes_[index_of(id)].end == index_of(id) + 1; }
+    /// The node's triangles, one contiguous range per batch, by batch id.
+    [[nodiscard]] std::span<const DrawRange> ranges(NodeId id) const {
+        return std::span(ranges_).subspan(node(id).first_range, node(id).range_count);
+    }
+    /// The index buffer to draw from, in base order: batch after batch, leaves in depth-first order. A triangle's three
+    /// indices keep their order, so that depths agree to the last bit with the source's.
+    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
+    [[nodiscard]] std::size_t batch_count() const { return batch_count_; }
+    [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
+
+  private:
+    friend class OctreeBuilder;
+
+    std::vector<OctreeNode> nodes_;
+    std::vector<DrawRange> ranges_;
+    std::vector<std::uint32_t> indices_;
+    std::size_t batch_count_ = 0;
+    std::size_t leaf_count_ = 0;
+};
+
+/// Builds the octree of `batches`; batch i is `BatchId{i}`. No batch, or batches without triangles, give no node.
+/// Deterministic. Errors name the batch and triangle: an index out of range, a corner that is not finite, an index count
+/// that is no multiple of three, more than 2^32 - 1 indices.
+/// Cost: O(n) in triangles (radix sort), 32 bytes of scratch per triangle.
+Result<RhOctree> build_octree(std::span<const TriangleBatch> batches, const OctreeOptions& options = {});
+
+}  // namespace rhview
