@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+//
+// The promise that matters: what a renderer's float transform could put on the screen is never `Outside`, and `Inside`
+// means that no vertex is clipped. The oracle is that float transform itself, as `gl` does it, and long double.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+#include "rhview/frustum/frustum.h"
+
+namespace rhview {
+namespace {
+
+class Uniform {
+  public:
+    explicit Uniform(std::uint32_t seed) : engine_(seed) {}
+    double operator()(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+    }
+    double log(double low, double high) { return std::exp2((*this)(std::log2(low), std::log2(high))); }
+    glm::dvec3 point(double reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
+
+  private:
+    std::mt19937 engine_;
+};
+
+/// The vertex shader of `gl`, in float: eye subtracted as a pair, then the camera-relative clip matrix.
+struct FloatRenderer {
+    explicit FloatRenderer(const View& view) : eye_high(view.eye()), clip(view.clip_from_eye_relative()) {
+        eye_low = glm::vec3(view.eye() - glm::dvec3(eye_high));
+    }
+    [[nodiscard]] glm::vec4 transform(const glm::vec3& vertex) const {
+        const glm::vec3 relative = (vertex - eye_high) - eye_low;
+        return clip * glm::vec4(relative, 1.0f);
+    }
+    glm::vec3 eye_high;
+    glm::vec3 eye_low;
+    glm::mat4 clip;
+};
+
+/// Which of the six clip conditions a vertex breaks, one bit each.
+unsigned broken_conditions(const glm::vec4& c, ClipDepth depth) {
+    const float near_limit = depth == ClipDepth::NegativeOneToOne ? -c.w : 0.0f;
+    return (c.x < -c.w ? 1u : 0u) | (c.x > c.w ? 2u : 0u) | (c.y < -c.w ? 4u : 0u) | (c.y > c.w ? 8u : 0u) |
+           (c.z < near_limit ? 16u : 0u) | (c.z > c.w ? 32u : 0u);
+}
+
+View random_view(Uniform& uniform, const glm::dvec3& eye, ClipDepth depth) {
+    const double near = uniform.log(1e-3, 10.0);
+    const double far = near * uniform.log(10.0, 1e6);
+    View view;
+    view.clip_depth = depth;
+    view.camera_from_world = look_along(eye, uniform.point(1.0), {0.1, 1.0, 0.05});
+    view.clip_from_camera = uniform(0, 1) < 0.2
+                                ? orthographic(uniform.log(0.1, 1e3), uniform.log(0.1, 1e3), near, far, depth)
+                                : perspective(uniform(0.02, 2.9), uniform(0.3, 3.0), near, far, depth);
+    return view;
+}
+
+struct Case {
+    double world_offset;
+    ClipDepth depth;
+};
+
+class FrustumOracle : public testing::TestWithParam<Case> {};
+
+TEST_P(FrustumOracle, no_box_with_a_vertex_that_a_float_renderer_keeps_is_outside_and_inside_boxes_are_not_clipped) {
+    const auto [offset, depth] = GetParam();
+    Uniform uniform(static_cast<std::uint32_t>(offset) + static_cast<std::uint32_t>(depth));
+    std::size_t outside = 0, inside = 0;
+    for (int v = 0; v < 300; ++v) {
+        const glm::dvec3 eye = glm::dvec3(offset) + uniform.point(50.0);
+        const View view = random_view(uniform, eye, depth);
+        const Frustum frustum = make_frustum(view);
+        const FloatRenderer renderer(view);
+        for (int b = 0; b < 300; ++b) {
+            const glm::vec3 centre(eye + uniform.point(uniform.log(0.1, 1e4)));
+            const glm::vec3 half(uniform.log(1e-6, 1e3) * glm::dvec3(uniform(0, 1), uniform(0, 1), uniform(0, 1)));
+            const Aabb box{centre - half, centre + half};
+            PlaneMask mask = frustum.mask;
+            const Containment answer = classify(frustum, box, mask);
+            unsigned broken_by_all = 0x3f, broken_by_any = 0;
+            for (int i = 0; i < 8; ++i) {
+                const glm::vec3 corner((i & 1 ? box.max : box.min).x, (i & 2 ? box.max : box.min).y,
+                                       (i & 4 ? box.max : box.min).z);
+                const unsigned broken = broken_conditions(renderer.transform(corner), depth);
+                broken_by_all &= broken;
+                broken_by_any |= broken;
+            }
+            // The renderer throws a box away as a whole only if all its corners break one and the same condition.
+            if (answer == Containment::Outside) {
+                ++outside;
+                ASSERT_NE(broken_by_all, 0u) << "a box that may be drawn was rejected";
+            }
+            if (answer == Containment::Inside) {
+                ++inside;
+                ASSERT_EQ(broken_by_any, 0u) << "a box that is clipped was called inside";
+            }
+        }
+    }
+    EXPECT_GT(outside, 10'000u);  // the test must not pass by proving nothing
+    EXPECT_GT(inside, 1'000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Offsets, FrustumOracle,
+    testing::Values(Case{0, ClipDepth::NegativeOneToOne}, Case{1e3, ClipDepth::NegativeOneToOne},
+                    Case{1e5, ClipDepth::NegativeOneToOne}, Case{1e7, ClipDepth::NegativeOneToOne},
+                    Case{0, ClipDepth::ZeroToOne}, Case{1e7, ClipDepth::ZeroToOne},
+                    Case{0, ClipDepth::ReversedZeroToOne}, Case{1e7, ClipDepth::ReversedZeroToOne}));
+
+TEST(FrustumOracle, boxes_that_touch_the_frustum_in_long_double_are_never_outside) {
+    Uniform uniform(7);
+    for (int v = 0; v < 500; ++v) {
+        const glm::dvec3 eye = uniform.point(1e6);
+        const View view = random_view(uniform, eye, ClipDepth::ReversedZeroToOne);
+        const Frustum frustum = make_frustum(view);
+        const glm::dmat4 eye_from_clip = glm::inverse(view.clip_from_eye_relative());
+        for (int b = 0; b < 200; ++b) {
+            // A point on the frustum's surface, as a box of no size rounded outwards.
+            glm::dvec4 clip(uniform(-1, 1), uniform(-1, 1), uniform(0, 1), 1.0);
+            clip[b % 3] = b % 3 == 2 ? (b & 1 ? 0.0 : 1.0) : (b & 1 ? -1.0 : 1.0);
+            const glm::dvec4 p = eye_from_clip * clip;
+            const glm::dvec3 world = eye + glm::dvec3(p) / p.w;
+            Aabb box;
+            for (int axis = 0; axis < 3; ++axis) {
+                box.min[axis] = std::nextafter(static_cast<float>(world[axis]), -3e38f);
+                box.max[axis] = std::nextafter(static_cast<float>(world[axis]), 3e38f);
+            }
+            PlaneMask mask = frustum.mask;
+            ASSERT_NE(classify(frustum, box, mask), Containment::Outside);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rhview

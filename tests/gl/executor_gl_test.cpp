@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "rhview/gl/executor.h"
+
+#include <epoxy/gl.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gl_fixture.h"
+#include "rhview/gl/line_drawer.h"
+
+namespace rhview::gl {
+namespace {
+
+/// Two materials (the second two-sided), two triangles each.
+Scene two_materials() {
+    SceneBuilder builder;
+    const MaterialId plain = builder.add_material({"plain", {1, 0, 0}, false, false});
+    const MaterialId two_sided = builder.add_material({"two-sided", {0, 1, 0}, true, false});
+    for (const MaterialId material : {plain, two_sided})
+        for (const double x : {-2.0, 2.0})
+            builder.add_static(material, triangle_piece(),
+                               glm::translate(glm::dmat4(1.0), glm::dvec3(x, material == plain ? 1.0 : -1.0, 0)));
+    return builder.finish("two materials").value();
+}
+
+FramePlan whole_of(const Scene& scene) {
+    FramePlan plan;
+    std::uint32_t first = 0;
+    for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {
+        for (const SceneObject& object : scene.batches[b].objects)
+            plan.opaque.push_back({BatchId{b}, first + object.first_index, object.index_count});
+        first += static_cast<std::uint32_t>(scene.batches[b].indices.size());
+    }
+    for (std::uint32_t i = 0; i < scene.dynamic_objects.size(); ++i) plan.objects.push_back(ObjectId{i});
+    return plan;
+}
+
+TEST_F(GlTest, counts_calls_sub_draws_and_indices_of_plain_and_multi_draws) {
+    const Scene scene = two_materials();
+    const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+    const View view = view_at({0, 0, 0}, {0, 0, -1});
+    const std::vector<float> plain = depths_of(whole_of(scene), buffers, view);
+    EXPECT_EQ(counters_.draw_calls, 4u);
+    EXPECT_EQ(counters_.sub_draws, 4u);
+    EXPECT_EQ(counters_.indices, 12u);
+    const std::vector<float> multi =
+        depths_of(whole_of(scene), buffers, view, {.submission = Submission::MultiDraw, .colour = {}});
+    EXPECT_EQ(counters_.draw_calls, 2u);
+    EXPECT_EQ(counters_.sub_draws, 4u);
+    EXPECT_EQ(counters_.indices, 12u);
+    EXPECT_GT(covered_pixels(plain), 500u);
+    EXPECT_EQ(count_missing_pixels(plain, multi), 0u);
+    depths_of({}, buffers, view);
+    EXPECT_EQ(counters_.draw_calls, 0u);
+}
+
+TEST_F(GlTest, back_faces_are_drawn_for_two_sided_materials_only) {
+    const Scene scene = two_materials();
+    const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+    const std::size_t front = covered_pixels(depths_of(whole_of(scene), buffers, view_at({0, 0, 0}, {0, 0, -1})));
+    const std::size_t back = covered_pixels(depths_of(whole_of(scene), buffers, view_at({0, 0, -10}, {0, 0, 1})));
+    EXPECT_NEAR(static_cast<double>(back), static_cast<double>(front) / 2.0, 20.0);
+}
+
+TEST_F(GlTest, mirrored_dynamic_object_shows_its_front) {
+    SceneBuilder builder;
+    const MaterialId material = builder.add_material({});
+    const MeshId mesh = builder.add_mesh(material, triangle_piece()).value();
+    builder.add_dynamic(mesh, glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1)));
+    const Scene scene = builder.finish("mirrored").value();
+    const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+    EXPECT_GT(covered_pixels(depths_of(whole_of(scene), buffers, view_at({0, 0, 0}, {0, 0, -1}))), 500u);
+    EXPECT_EQ(counters_.indices, 3u);
+    EXPECT_EQ(covered_pixels(depths_of(whole_of(scene), buffers, view_at({0, 0, -10}, {0, 0, 1}))), 0u);
+}
+
+TEST_F(GlTest, colours_come_from_vertices_materials_or_the_override) {
+    SceneBuilder builder;
+    const MaterialId red = builder.add_material({"red", {1, 0, 0}, false, false});
+    const std::vector<PackedColour> blue(3, pack_colour({0, 0, 1}));
+    builder.add_static(red, triangle_piece(), glm::translate(glm::dmat4(1.0), glm::dvec3(-1.5, 0, 0)));
+    MeshPiece coloured = triangle_piece();
+    coloured.colours = blue;
+    builder.add_static(red, coloured, glm::translate(glm::dmat4(1.0), glm::dvec3(1.5, 0, 0)));
+    const Scene scene = builder.finish("colours").value();
+    const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+    const View view = view_at({0, 0, 0}, {0, 0, -1});
+    const auto pixel = [](const Picture& picture, int x) {
+        const std::uint8_t* p = picture.row(picture.height() / 2) + 3 * x;
+        return glm::ivec3(p[0], p[1], p[2]);
+    };
+    depths_of(whole_of(scene), buffers, view);
+    const Picture own = target_->read_colour();
+    const int left = 80 - 33, right = 80 + 33;
+    EXPECT_GT(pixel(own, left).r, 100);
+    EXPECT_EQ(pixel(own, left).b, 0);
+    EXPECT_GT(pixel(own, right).b, 100);
+    EXPECT_EQ(pixel(own, right).r, 0);
+    depths_of(whole_of(scene), buffers, view, {.submission = Submission::Plain, .colour = glm::vec3(0, 1, 0)});
+    const Picture green = target_->read_colour();
+    EXPECT_GT(pixel(green, left).g, 100);
+    EXPECT_EQ(pixel(green, right).b, 0);
+}
+
+TEST_F(GlTest, smooth_normals_are_lit_differently_from_each_side_of_a_surface) {
+    SceneBuilder builder;
+    const MaterialId material = builder.add_material({});
+    const std::vector<glm::vec3> towards_sun(3, glm::vec3(0.48f, 0.74f, 0.47f)), away(3, glm::vec3(-0.48f, -0.74f, -0.47f));
+    MeshPiece lit = triangle_piece(), dark = triangle_piece();
+    lit.normals = towards_sun;
+    dark.normals = away;
+    builder.add_static(material, lit, glm::translate(glm::dmat4(1.0), glm::dvec3(-1.5, 0, 0)));
+    builder.add_static(material, dark, glm::translate(glm::dmat4(1.0), glm::dvec3(1.5, 0, 0)));
+    const Scene scene = builder.finish("normals").value();
+    const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+    depths_of(whole_of(scene), buffers, view_at({0, 0, 0}, {0, 0, -1}));
+    const Picture picture = target_->read_colour();
+    const std::uint8_t* row = picture.row(60);
+    EXPECT_GT(row[3 * 47 + 1], row[3 * 113 + 1] + 50);
+    EXPECT_GT(row[3 * 113 + 1], 30);
+}
+
+TEST_F(GlTest, state_of_the_application_is_put_back) {
+    const Scene scene = two_materials();
+    const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+    LineDrawer lines = LineDrawer::create().value();
+    glDisable(GL_DEPTH_TEST);
+    glDepthFunc(GL_NOTEQUAL);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+    glFrontFace(GL_CW);
+    glVertexAttrib4f(1, 1, 2, 3, 4);
+    glVertexAttrib4f(2, 5, 6, 7, 8);
+    target_->begin(ClipDepth::ZeroToOne, glm::vec3(0));
+    glDepthMask(GL_FALSE);
+    glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    executor_->draw(whole_of(scene), buffers, view_at({0, 0, 0}, {0, 0, -1}, ClipDepth::ZeroToOne));
+    Lines box;
+    box.add_box({glm::vec3(-1), glm::vec3(1)}, glm::dvec3(0));
+    lines.draw(box, view_at({0, 0, 5}, {0, 0, -1}), glm::vec3(1));
+    const auto integer = [](GLenum name) {
+        GLint value = -1;
+        glGetIntegerv(name, &value);
+        return static_cast<GLenum>(value);
+    };
+    EXPECT_EQ(integer(GL_CURRENT_PROGRAM), 0u);
+    EXPECT_EQ(integer(GL_VERTEX_ARRAY_BINDING), 0u);
+    EXPECT_EQ(integer(GL_DEPTH_FUNC), static_cast<GLenum>(GL_NOTEQUAL));
+    EXPECT_EQ(integer(GL_CULL_FACE_MODE), static_cast<GLenum>(GL_FRONT));
+    EXPECT_EQ(integer(GL_FRONT_FACE), static_cast<GLenum>(GL_CW));
+    EXPECT_EQ(integer(GL_CLIP_ORIGIN), static_cast<GLenum>(GL_UPPER_LEFT));
+    EXPECT_EQ(integer(GL_CLIP_DEPTH_MODE), static_cast<GLenum>(GL_NEGATIVE_ONE_TO_ONE));
+    EXPECT_EQ(integer(GL_DEPTH_WRITEMASK), 0u);
+    EXPECT_TRUE(glIsEnabled(GL_CULL_FACE));
+    EXPECT_FALSE(glIsEnabled(GL_DEPTH_TEST));
+    GLfloat normal[4] = {}, colour[4] = {};
+    glGetVertexAttribfv(1, GL_CURRENT_VERTEX_ATTRIB, normal);
+    glGetVertexAttribfv(2, GL_CURRENT_VERTEX_ATTRIB, colour);
+    EXPECT_EQ(normal[0], 1.0f);
+    EXPECT_EQ(colour[3], 8.0f);
+    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+}
+
+TEST_F(GlTest, lines_are_drawn_over_everything) {
+    LineDrawer lines = LineDrawer::create().value();
+    target_->begin(ClipDepth::NegativeOneToOne, glm::vec3(0));
+    Lines shapes;
+    shapes.add_box({glm::vec3(-1, -1, -6), glm::vec3(1, 1, -5)}, glm::dvec3(0));
+    shapes.add_frustum(view_at({0, 0, -5}, {0, 0, -1}), 3.0);
+    EXPECT_EQ(shapes.points.size(), 24u + 16u);
+    lines.draw(shapes, view_at({0, 0, 0}, {0, 0, -1}), glm::vec3(1, 0, 0));
+    const Picture picture = target_->read_colour();
+    int red = 0;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) red += picture.row(y)[3 * x] == 255;
+    EXPECT_GT(red, 100);
+    EXPECT_LT(red, 2000);
+}
+
+}  // namespace
+}  // namespace rhview::gl
