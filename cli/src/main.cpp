@@ -59,6 +59,10 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000))
         ->each([&options](const std::string&) { options.check = true; });
+    walk->add_option("--freeze-culling", options.freeze_culling,
+                     "From this frame on, cull for its camera while the picture's goes on: shows what is left out")
+        ->type_name("FRAME")
+        ->check(CLI::Range(0, 1'000'000));
     walk->add_option("--json", options.json, "Write the results as JSON (rhview.walk/1)")->type_name("FILE");
     walk->add_option("--csv", options.csv, "Write a line per frame")->type_name("FILE");
     walk->add_option("--images", options.images, "Write a PNG of every 30th frame")->type_name("DIR");

@@ -34,6 +34,7 @@ struct WalkOptions {
     bool check = false;
     int check_every = 1;
     int images_every = 30;
+    std::optional<int> freeze_culling;
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> csv;
     std::optional<std::filesystem::path> images;

@@ -134,13 +134,18 @@ class Walk {
         return success();
     }
 
-    [[nodiscard]] FrameInput input_of(int frame) const {
+    [[nodiscard]] View culling_view_of(int frame) const {
+        return view_of(std::min(frame, options_.freeze_culling.value_or(frame)));
+    }
+
+    [[nodiscard]] View view_of(int frame) const {
         const double aspect = static_cast<double>(target_->width()) / target_->height();
-        return {path_.view_of_frame(frame, options_.frames, aspect, clip_depth_), scene_.origin, object_boxes_};
+        return path_.view_of_frame(frame, options_.frames, aspect, clip_depth_);
     }
 
     FrameRecord draw_frame(int frame) {
-        const FrameInput input = input_of(frame);
+        const View view = view_of(frame);
+        const FrameInput input{culling_view_of(frame), scene_.origin, object_boxes_};
         target_->begin(clip_depth_, kSky);
         gl::finish();
         FrameRecord record;
@@ -151,7 +156,7 @@ class Walk {
         if (gpu_timer_) gpu_timer_->begin();
         gl::DrawOptions draw;
         draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
-        const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, input.culling_view, draw);
+        const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, view, draw);
         if (gpu_timer_) gpu_timer_->end();
         gl::finish();
         record.frame_ms = timer.elapsed_ms();
@@ -166,13 +171,13 @@ class Walk {
 
     /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
     Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
-        const FrameInput input = input_of(frame);
+        const View view = view_of(frame);
         target_->read_depth(culled_depths_);
         std::optional<gl::Picture> culled;
         if (pictured) culled.emplace(target_->read_colour());
-        reference_->plan(input, everything_);
+        reference_->plan({.culling_view = view, .scene_origin = scene_.origin, .object_boxes = object_boxes_}, everything_);
         target_->begin(clip_depth_, kSky);
-        executor_->draw(everything_, *buffers_, input.culling_view);
+        executor_->draw(everything_, *buffers_, view);
         target_->read_depth(reference_depths_);
         const std::size_t missing = gl::count_missing_pixels(culled_depths_, reference_depths_);
         if (checked) record.missing_pixels = missing;
@@ -180,8 +185,8 @@ class Walk {
 
         gl::Picture reference = target_->read_colour();
         gl::Picture difference = gl::difference_picture(reference, culled_depths_, reference_depths_);
-        gl::Picture above = above_->draw(everything_, plan_, *method_.planner, *buffers_, bounds_, input.culling_view,
-                                         *executor_);
+        gl::Picture above = above_->draw(everything_, plan_, *method_.planner, *buffers_, bounds_,
+                                         culling_view_of(frame), *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
                                   record.draw_calls, static_cast<double>(record.indices) * 1e-6));
         reference.label("everything drawn");

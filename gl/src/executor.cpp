@@ -58,7 +58,8 @@ void main() {
     n = normalize(normal_matrix * n);
     float sun = max(dot(n, vec3(0.48, 0.74, 0.47)), 0.0);
     vec3 ambient = mix(vec3(0.20, 0.19, 0.18), vec3(0.40, 0.45, 0.52), n.y * 0.5 + 0.5);
-    vec3 colour = mix(surface_colour, override_colour.rgb, override_colour.a);
+    float grey = dot(surface_colour, vec3(0.3, 0.6, 0.1));
+    vec3 colour = mix(surface_colour, override_colour.rgb * (0.4 + 1.2 * grey), override_colour.a);
     pixel = vec4(sqrt(clamp(colour * (ambient + sun * vec3(0.80, 0.76, 0.68)), 0.0, 1.0)), 1.0);
 }
 )";

@@ -54,7 +54,7 @@ void Picture::label(std::string_view text) {
     const int quads = stb_easy_font_print(0, 0, copy.data(), nullptr, vertices.data(),
                                           static_cast<int>(vertices.size() * sizeof(FontVertex)));
     // Large pictures are looked at scaled down: letters grow with them.
-    const int scale = std::max(1, height_ / 400);
+    const int scale = std::max(1, height_ / 300);
     fill(*this, 0, 0, scale * (2 * kMargin + stb_easy_font_width(copy.data())), scale * kBand, 24);
     for (int quad = 0; quad < quads; ++quad) {
         const FontVertex& low = vertices[static_cast<std::size_t>(4 * quad)];

@@ -30,7 +30,7 @@ enum class Submission {
 
 struct DrawOptions {
     Submission submission = Submission::Plain;
-    std::optional<glm::vec3> colour;  ///< instead of the materials' and vertices'
+    std::optional<glm::vec3> colour;  ///< instead of the materials' and vertices', whose brightness is kept
 };
 
 class Executor {

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The rhview authors
+# SPDX-License-Identifier: MIT
+"""Walks scenes with every method and writes one CSV row per scene, method and leaf size.
+
+Draw calls and indices are counted and repeat exactly. Times are noisy: the methods are interleaved, every walk is repeated,
+and a row holds the median over the repeats of each walk's median frame, with the smallest and largest beside it. Compare
+rows of one run only.
+"""
+
+import argparse
+import csv
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+RUNS = [("none", None), ("frustum", None), ("octree", 64), ("rhview-seed", 64), ("octree", 4096), ("rhview-seed", 4096)]
+FIELDS = ["scene", "triangles", "materials", "method", "leaf", "draw_calls_mean", "draw_calls_max", "indices_mean",
+          "nodes_visited_mean", "build_ms", "cull_ms", "frame_ms", "frame_ms_min", "frame_ms_max", "missing_pixels",
+          "checked_frames", "plan_hash", "frames", "size", "renderer", "timer"]
+
+
+def walk(program, scene, method, leaf, options, check_every):
+    with tempfile.TemporaryDirectory() as folder:
+        result = pathlib.Path(folder) / "walk.json"
+        command = [program, "walk", scene, "--method", method, "--json", str(result), "--frames", str(options.frames),
+                   "--size", options.size, "--warmup", "2"]
+        if leaf is not None:
+            command += ["--leaf", str(leaf)]
+        if check_every:
+            command += ["--check-every", str(check_every)]
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
+        if done.returncode not in (0, 1):
+            sys.exit(f"{' '.join(command)} ended with exit code {done.returncode}")
+        return json.loads(result.read_text())
+
+
+def row(scene, method, leaf, walks):
+    first = walks[0]
+    summary = first["summary"]
+    frame_ms = [w["summary"]["frame_ms"]["median"] for w in walks]
+    hashes = {w["summary"]["plan_hash"] for w in walks}
+    if len(hashes) != 1:
+        sys.exit(f"{scene} {method}: plans differ between repeats")
+    return {
+        "scene": first["scene"]["name"], "triangles": first["scene"]["triangles"],
+        "materials": first["scene"]["materials"], "method": method, "leaf": leaf or "",
+        "draw_calls_mean": round(summary["draw_calls"]["mean"], 1), "draw_calls_max": summary["draw_calls"]["max"],
+        "indices_mean": round(summary["indices"]["mean"]),
+        "nodes_visited_mean": round(summary["nodes_visited"]["mean"]),
+        "build_ms": "" if first["build"]["ms"] is None else round(statistics.median(w["build"]["ms"] for w in walks)),
+        "cull_ms": round(statistics.median(w["summary"]["cull_ms"]["median"] for w in walks), 4),
+        "frame_ms": round(statistics.median(frame_ms), 2), "frame_ms_min": round(min(frame_ms), 2),
+        "frame_ms_max": round(max(frame_ms), 2), "missing_pixels": summary["missing_pixels"]["total"],
+        "checked_frames": summary["missing_pixels"]["checked_frames"], "plan_hash": summary["plan_hash"],
+        "frames": first["frames"], "size": "x".join(map(str, first["size"])), "renderer": first["device"]["renderer"],
+        "timer": first["device"]["timer"],
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("scenes", nargs="+", help="named scenes or files")
+    parser.add_argument("--program", default="build/release/cli/rhview")
+    parser.add_argument("--output", required=True)
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--frames", type=int, default=60)
+    parser.add_argument("--size", default="1280x720")
+    options = parser.parse_args()
+
+    rows = []
+    for scene in options.scenes:
+        walks = {run: [] for run in RUNS}
+        for repeat in range(options.repeats):
+            for run in RUNS:
+                # The first repeat also checks pixels; the timed part of a frame does not hold that work.
+                walks[run].append(walk(options.program, scene, *run, options, 5 if repeat == 0 else 0))
+                print(f"{scene} {run[0]} {run[1] or ''} repeat {repeat + 1}", file=sys.stderr)
+        rows += [row(scene, method, leaf, walks[method, leaf]) for method, leaf in RUNS]
+
+    output = pathlib.Path(options.output)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    with output.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, FIELDS)
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "program.h"
+
+namespace rhview::cli {
+namespace {
+
+struct RealScene {
+    const char* file;
+    std::uint64_t triangles;
+};
+
+class RealScenes : public ProgramTest, public testing::WithParamInterface<RealScene> {};
+
+TEST_P(RealScenes, no_method_misses_a_pixel) {
+    const std::filesystem::path file = std::filesystem::path(RHVIEW_SHARED_SCENES_DIR) / GetParam().file;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real test scenes are not here: " << file;
+    for (const char* method : {"none", "frustum", "octree", "rhview-seed"}) {
+        const nlohmann::json walk =
+            walk_json("'" + file.string() + "' --frames 6 --warmup 0 --size 320x180 --leaf 500 --check --method " + method);
+        EXPECT_EQ(walk["scene"]["triangles"], GetParam().triangles);
+        EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0) << method;
+        EXPECT_GT(walk["summary"]["indices"]["mean"], 0) << method;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RealScenes,
+                         testing::Values(RealScene{"intel_castle.glb", 1070891},
+                                         RealScene{"stk_candela_city.glb", 429312},
+                                         RealScene{"bsp_nexuiz_ons-reborn.glb", 125091},
+                                         RealScene{"rvm_huldra_wd1_psup.glb", 85240}),
+                         [](const auto& info) {
+                             std::string name = info.param.file;
+                             std::ranges::replace_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace rhview::cli

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include <regex>
+
+#include "program.h"
+
+namespace rhview::cli {
+namespace {
+
+const std::string kSmallTown = "town:size=96 --frames 12 --warmup 1 --size 160x90";
+
+class EveryMethod : public ProgramTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(EveryMethod, misses_no_pixel_on_small_scenes) {
+    for (const char* scene : {"town:size=96,materials=5", "indoor:rooms=4,floors=2", "city:blocks=3", "soup",
+                              "plant:objects=3000", "farm:instances=12,mesh=3000"}) {
+        const nlohmann::json walk = walk_json(std::string(scene) + " --frames 10 --warmup 0 --size 200x120 --check --method " + GetParam());
+        const nlohmann::json& missing = walk["summary"]["missing_pixels"];
+        EXPECT_EQ(missing["total"], 0) << scene;
+        EXPECT_EQ(missing["frames"], 0) << scene;
+        EXPECT_EQ(missing["checked_frames"], 10) << scene;
+        EXPECT_GT(walk["summary"]["indices"]["max"], 0) << scene;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::Values("none", "frustum", "octree", "rhview-seed", "rhview"),
+                         [](const auto& info) {
+                             std::string name = info.param;
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
+
+class Walk : public ProgramTest {};
+
+TEST_F(Walk, json_keeps_the_contract) {
+    const nlohmann::json walk = walk_json(kSmallTown + " --method octree --leaf 64");
+    EXPECT_EQ(walk["schema"], "rhview.walk/1");
+    EXPECT_EQ(walk["scene"]["name"], "town:size=96");
+    EXPECT_GT(walk["scene"]["triangles"], 10000);
+    EXPECT_EQ(walk["scene"]["triangles"], walk["scene"]["static_triangles"]);
+    EXPECT_EQ(walk["scene"]["dynamic_objects"], 0);
+    EXPECT_EQ(walk["scene"]["materials"], 1);
+    for (const char* field : {"renderer", "version", "timer"}) EXPECT_TRUE(walk["device"][field].is_string());
+    EXPECT_TRUE(walk["profile"].contains("c1_ns"));
+    EXPECT_EQ(walk["method"], "octree");
+    EXPECT_EQ(walk["mode"], "exact");
+    EXPECT_EQ(walk["frames"], 12);
+    EXPECT_EQ(walk["size"], (nlohmann::json{160, 90}));
+    for (const char* field : {"ms", "nodes", "replica_bytes", "index_bytes", "vertex_bytes"})
+        EXPECT_TRUE(walk["build"][field].is_number()) << field;
+    for (const char* field : {"draw_calls", "sub_draws", "indices", "queries", "nodes_visited", "cull_ms", "frame_ms"})
+        for (const char* statistic : {"mean", "median", "p95", "max"})
+            EXPECT_TRUE(walk["summary"][field][statistic].is_number()) << field;
+    // What was not measured is null, never 0.
+    for (const char* field : {"predicted_ms", "prediction_error", "visible_objects", "lod_error_px", "missing_pixels"})
+        EXPECT_TRUE(walk["summary"][field].is_null()) << field;
+    EXPECT_TRUE(std::regex_match(walk["summary"]["plan_hash"].get<std::string>(), std::regex("[0-9a-f]{16}")));
+    ASSERT_EQ(walk["per_frame"].size(), 12u);
+    double sum = 0.0;
+    for (const nlohmann::json& frame : walk["per_frame"]) {
+        for (const char* field : {"frame", "draw_calls", "indices", "queries", "cull_ms", "frame_ms"})
+            EXPECT_TRUE(frame[field].is_number()) << field;
+        EXPECT_TRUE(frame["missing_pixels"].is_null());
+        EXPECT_GE(frame["frame_ms"], frame["cull_ms"]);
+        sum += frame["draw_calls"].get<double>();
+    }
+    EXPECT_NEAR(walk["summary"]["draw_calls"]["mean"].get<double>(), sum / 12.0, 1e-9);
+}
+
+TEST_F(Walk, methods_without_an_octree_report_no_build) {
+    const nlohmann::json walk = walk_json(kSmallTown + " --method frustum");
+    EXPECT_TRUE(walk["build"]["ms"].is_null());
+    EXPECT_TRUE(walk["build"]["nodes"].is_null());
+}
+
+TEST_F(Walk, equal_walks_have_equal_plans_and_rhview_is_still_the_seeds_rule) {
+    const auto hash = [&](const std::string& options) { return walk_json(kSmallTown + options)["summary"]["plan_hash"]; };
+    const nlohmann::json seed = hash(" --method rhview-seed");
+    EXPECT_EQ(seed, hash(" --method rhview-seed --check --submission multi"));
+    EXPECT_EQ(seed, hash(" --method rhview"));
+    EXPECT_NE(seed, hash(" --method octree --leaf 64"));
+}
+
+TEST_F(Walk, seeds_rule_draws_the_triangles_of_the_leaves_with_fewer_calls) {
+    const nlohmann::json octree = walk_json(kSmallTown + " --leaf 64 --method octree")["summary"];
+    const nlohmann::json seed = walk_json(kSmallTown + " --leaf 64 --method rhview-seed")["summary"];
+    EXPECT_EQ(octree["indices"], seed["indices"]);
+    EXPECT_LT(seed["draw_calls"]["mean"].get<double>(), 0.5 * octree["draw_calls"]["mean"].get<double>());
+}
+
+TEST_F(Walk, multi_draw_makes_one_call_per_batch) {
+    const nlohmann::json plain = walk_json(kSmallTown + " --leaf 64")["summary"];
+    const nlohmann::json multi = walk_json(kSmallTown + " --leaf 64 --submission multi")["summary"];
+    EXPECT_EQ(multi["draw_calls"]["max"], 1);
+    EXPECT_EQ(multi["sub_draws"], plain["draw_calls"]);
+    EXPECT_EQ(multi["indices"], plain["indices"]);
+}
+
+TEST_F(Walk, dynamic_objects_are_counted_and_culled) {
+    const nlohmann::json walk = walk_json("farm:instances=30,mesh=2000 --frames 8 --size 160x90 --warmup 0 --check");
+    EXPECT_EQ(walk["scene"]["dynamic_objects"], 30);
+    EXPECT_GT(walk["scene"]["dynamic_triangles"], 30 * 1000);
+    EXPECT_LT(walk["summary"]["visible_objects"]["mean"], 30);
+    EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0);
+}
+
+TEST_F(Walk, csv_has_a_line_per_frame_and_table_names_what_was_counted) {
+    const Outcome outcome = run("walk " + kSmallTown + " --csv walk.csv");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const std::string csv = read_file(folder_ / "walk.csv");
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 13);
+    EXPECT_EQ(csv.rfind("frame,draw_calls,", 0), 0u);
+    for (const char* word : {"draw calls", "indices", "frame ms", "median", "town:size=96"})
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+    EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(Walk, images_are_written_at_their_interval) {
+    const Outcome outcome = run("walk " + kSmallTown + " --images pictures --images-every 5");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* name : {"frame_0000.png", "frame_0005.png", "frame_0010.png"})
+        EXPECT_GT(std::filesystem::file_size(folder_ / "pictures" / name), 1000u);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "pictures"), {}), 3);
+}
+
+TEST_F(Walk, check_that_fails_exits_with_one_and_still_writes_the_results) {
+    // Culling for the first frame's camera while the picture's moves on leaves visible triangles out.
+    const Outcome outcome = run("walk " + kSmallTown + " --leaf 64 --check --freeze-culling 0 --json walk.json");
+    EXPECT_EQ(outcome.code, 1);
+    const nlohmann::json missing = nlohmann::json::parse(read_file(folder_ / "walk.json"))["summary"]["missing_pixels"];
+    EXPECT_GT(missing["total"], 0);
+    EXPECT_GE(missing["total"], missing["max"]);
+    EXPECT_GT(missing["frames"], 0);
+    EXPECT_LT(missing["frames"], 12);
+}
+
+TEST_F(Walk, check_every_nth_frame_checks_those_only) {
+    const nlohmann::json walk = walk_json(kSmallTown + " --check-every 5");
+    EXPECT_EQ(walk["summary"]["missing_pixels"]["checked_frames"], 3);
+    EXPECT_TRUE(walk["per_frame"][1]["missing_pixels"].is_null());
+    EXPECT_EQ(walk["per_frame"][5]["missing_pixels"], 0);
+}
+
+TEST_F(Walk, path_file_replaces_the_scenes_own) {
+    write_file(folder_ / "sky.json",
+               R"({"schema": "rhview.path/1", "fov_y_deg": 60, "near": 0.1, "far": 1000, "up": [0, 0, 1], "keys": [
+                   {"time": 0, "eye": [0, 500, 0], "target": [0, 600, 0]},
+                   {"time": 1, "eye": [0, 501, 0], "target": [0, 601, 0]}]})");
+    const nlohmann::json walk = walk_json(kSmallTown + " --path sky.json --check");
+    EXPECT_EQ(walk["summary"]["draw_calls"]["max"], 0);
+    EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0);
+}
+
+TEST_F(Walk, info_and_scenes_tell_what_there_is) {
+    const Outcome scenes = run("scenes");
+    EXPECT_EQ(scenes.code, 0);
+    for (const char* name : {"town", "plant", "indoor", "farm", "city", "soup", "materials"})
+        EXPECT_NE(scenes.out.find(name), std::string::npos) << name;
+    const Outcome info = run("info soup --json info.json");
+    ASSERT_EQ(info.code, 0) << info.err;
+    const nlohmann::json json = nlohmann::json::parse(read_file(folder_ / "info.json"));
+    EXPECT_EQ(json["schema"], "rhview.info/1");
+    EXPECT_GT(json["triangles"], 0);
+    EXPECT_GT(json["dropped_triangles"], 0);
+    EXPECT_FALSE(json["warnings"].empty());
+    EXPECT_EQ(run("--version").code, 0);
+    EXPECT_EQ(run("walk --help").code, 0);
+}
+
+}  // namespace
+}  // namespace rhview::cli
