@@ -17,6 +17,10 @@ set(RHVIEW_FLOOR_pipeline 3)
 set(RHVIEW_FLOOR_gl 4)
 set(RHVIEW_FLOOR_baselines 4)
 
+# What an engine takes: needs GLM alone. rhview::rhview links those of them that are built; the package's default
+# component holds them.
+set(RHVIEW_CORE_MODULES base frustum rhoctree pipeline)
+
 # Flags of our own targets only: consumers see none of them.
 function(rhview_private_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -56,4 +60,13 @@ function(rhview_module name)
   set_target_properties(rhview_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   set_property(GLOBAL APPEND PROPERTY RHVIEW_MODULES ${name})
   set_property(GLOBAL PROPERTY RHVIEW_HEADERS_${name} ${arg_HEADERS})
+
+  if(name IN_LIST RHVIEW_CORE_MODULES)
+    if(NOT TARGET rhview_core)
+      add_library(rhview_core INTERFACE)
+      add_library(rhview::rhview ALIAS rhview_core)
+      set_target_properties(rhview_core PROPERTIES EXPORT_NAME rhview)
+    endif()
+    target_link_libraries(rhview_core INTERFACE rhview::${name})
+  endif()
 endfunction()

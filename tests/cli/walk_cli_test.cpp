@@ -25,8 +25,8 @@ TEST_P(EveryMethod, misses_no_pixel_on_small_scenes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::Values("none", "frustum", "octree", "rhview-seed", "rhview"),
-                         [](const auto& info) {
-                             std::string name = info.param;
+                         [](const auto& test) {
+                             std::string name = test.param;
                              std::ranges::replace(name, '-', '_');
                              return name;
                          });

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 The rhview authors
+# SPDX-License-Identifier: MIT
+#
+# Install rules and the CMake package. The core modules are the component `core`; every other module is a component of
+# its own name, with its own export file, so that find_package(rhview) looks for GLM alone.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# The export file of a component, without its ending: rhviewScenesTargets.
+function(rhview_export_name component result)
+  string(SUBSTRING "${component}" 0 1 first)
+  string(SUBSTRING "${component}" 1 -1 rest)
+  string(TOUPPER "${first}" first)
+  set(${result} "rhview${first}${rest}Targets" PARENT_SCOPE)
+endfunction()
+
+function(rhview_component_of module result)
+  if(module IN_LIST RHVIEW_CORE_MODULES)
+    set(${result} core PARENT_SCOPE)
+  else()
+    set(${result} "${module}" PARENT_SCOPE)
+  endif()
+endfunction()
+
+# What a consumer of the module must find: its link libraries, private ones too, since a static library leaves them to
+# the final link. The namespace of an imported target is the package's name; PkgConfig::<module> stays as it is.
+function(rhview_requirements_of module packages_result components_result)
+  set(packages "")
+  set(components "")
+  get_target_property(libraries rhview_${module} LINK_LIBRARIES)
+  foreach(library IN LISTS libraries)
+    if(library MATCHES "^rhview::(.+)$")
+      rhview_component_of(${CMAKE_MATCH_1} component)
+      list(APPEND components ${component})
+    elseif(library MATCHES "^PkgConfig::")
+      list(APPEND packages ${library})
+    elseif(library MATCHES "^([^$<>:]+)::")
+      list(APPEND packages ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  set(${packages_result} "${packages}" PARENT_SCOPE)
+  set(${components_result} "${components}" PARENT_SCOPE)
+endfunction()
+
+function(rhview_install_module module component)
+  get_target_property(header_sets rhview_${module} INTERFACE_HEADER_SETS)
+  set(file_sets "")
+  foreach(header_set IN LISTS header_sets)
+    list(APPEND file_sets FILE_SET ${header_set} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endforeach()
+  install(TARGETS rhview_${module} EXPORT rhview_${component}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    ${file_sets})
+endfunction()
+
+function(rhview_install)
+  set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/rhview")
+  get_property(modules GLOBAL PROPERTY RHVIEW_MODULES)
+  set(components "")
+  foreach(module IN LISTS modules)
+    rhview_component_of(${module} component)
+    list(APPEND components ${component})
+    rhview_install_module(${module} ${component})
+    rhview_requirements_of(${module} packages required)
+    # Lower floors are built first: what a required component requires is known by now.
+    foreach(other IN LISTS required)
+      list(APPEND requires_${component} ${requires_${other}} ${other})
+    endforeach()
+    list(APPEND packages_${component} ${packages})
+  endforeach()
+  install(TARGETS rhview_core EXPORT rhview_core)
+
+  list(REMOVE_DUPLICATES components)
+  set(RHVIEW_COMPONENT_TABLE "")
+  foreach(component IN LISTS components)
+    list(REMOVE_DUPLICATES requires_${component})
+    list(REMOVE_ITEM requires_${component} ${component})
+    list(REMOVE_DUPLICATES packages_${component})
+    string(APPEND RHVIEW_COMPONENT_TABLE
+      "set(_rhview_requires_${component} \"${requires_${component}}\")\n"
+      "set(_rhview_packages_${component} \"${packages_${component}}\")\n")
+    rhview_export_name(${component} export_name)
+    string(APPEND RHVIEW_COMPONENT_TABLE "set(_rhview_targets_${component} ${export_name}.cmake)\n")
+    install(EXPORT rhview_${component} NAMESPACE rhview:: FILE ${export_name}.cmake DESTINATION ${package_dir})
+  endforeach()
+  set(RHVIEW_COMPONENTS "${components}")
+
+  configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/rhviewConfig.cmake.in"
+    "${PROJECT_BINARY_DIR}/cmake/rhviewConfig.cmake" INSTALL_DESTINATION ${package_dir}
+    NO_SET_AND_CHECK_MACRO)
+  write_basic_package_version_file("${PROJECT_BINARY_DIR}/cmake/rhviewConfigVersion.cmake"
+    VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
+  install(FILES "${PROJECT_BINARY_DIR}/cmake/rhviewConfig.cmake"
+    "${PROJECT_BINARY_DIR}/cmake/rhviewConfigVersion.cmake" DESTINATION ${package_dir})
+
+  if(TARGET rhview_cli)
+    install(TARGETS rhview_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endfunction()
+
+rhview_install()

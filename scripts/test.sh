@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The rhview authors
+# SPDX-License-Identifier: MIT
+#
+# Installs what is missing, builds and tests: optimised with warnings as errors, then with the sanitizers.
+# Stops at the first step that fails; the last lines are CTest's own summary.
+#
+# usage: scripts/test.sh [--release-only | --asan-only]
+
+set -euo pipefail
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+presets=(ci asan)
+case "${1-}" in
+    '') ;;
+    --release-only) presets=(ci) ;;
+    --asan-only) presets=(asan) ;;
+    *)
+        echo "test: unknown option '$1'; usage: scripts/test.sh [--release-only | --asan-only]" >&2
+        exit 2
+        ;;
+esac
+
+phase() { echo "== $* [${SECONDS} s]"; }
+
+phase "setup"
+"$root/scripts/setup.sh"
+
+if command -v ccache >/dev/null && [[ -z "${CMAKE_CXX_COMPILER_LAUNCHER-}" ]]; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+
+cd "$root"
+for preset in "${presets[@]}"; do
+    phase "$preset: configure"
+    cmake --preset "$preset" </dev/null
+    phase "$preset: build"
+    cmake --build --preset "$preset" </dev/null
+    phase "$preset: test"
+    ctest --preset "$preset" -j2 --output-on-failure </dev/null
+done
