@@ -16,14 +16,15 @@ namespace {
 std::atomic<long> allocations{0};
 }
 
-// Counts every allocation of this program: the promise is that a warm planner makes none.
-void* operator new(std::size_t size) {
+// Counts every allocation of this program: the promise is that a warm planner makes none. Not inlined: GCC would see
+// malloc's memory given to a delete expression, and warn.
+[[gnu::noinline]] void* operator new(std::size_t size) {
     ++allocations;
     if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
     throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace rhview {
 namespace {
