@@ -15,21 +15,16 @@ class Traversal {
         list_.nodes_visited = 0;
     }
 
-    /// Adds the nodes to draw below `index`; whether all leaves below it may be visible.
-    bool add_by_seed_rule(std::uint32_t index, PlaneMask mask) {
+    void add_by_seed_rule(std::uint32_t index, PlaneMask mask) {
         ++list_.nodes_visited;
         const Containment containment = classify(frustum_, nodes_[index].bounds, mask);
-        if (containment == Containment::Outside) return false;
-        const std::size_t before = list_.nodes.size();
-        bool complete = true;
-        if (containment == Containment::Intersecting)
-            for (std::uint32_t child = index + 1; child < nodes_[index].end; child = nodes_[child].end)
-                complete &= add_by_seed_rule(child, mask);
-        if (complete) {
-            list_.nodes.resize(before);
+        if (containment == Containment::Outside) return;
+        if (containment == Containment::Inside || nodes_[index].end == index + 1) {
             list_.nodes.push_back(NodeId{index});
+            return;
         }
-        return complete;
+        for (std::uint32_t child = index + 1; child < nodes_[index].end; child = nodes_[child].end)
+            add_by_seed_rule(child, mask);
     }
 
     void add_leaves(std::uint32_t index, PlaneMask mask) {
