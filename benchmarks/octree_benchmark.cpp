@@ -25,9 +25,9 @@ void build_town(benchmark::State& state) {
         nodes = octree.nodes().size();
     }
     state.counters["nodes"] = static_cast<double>(nodes);
-    state.counters["Mtri/s"] =
-        benchmark::Counter(static_cast<double>(town().scene.static_triangles()) * 1e-6 * static_cast<double>(state.iterations()),
-                           benchmark::Counter::kIsRate);
+    state.counters["Mtri/s"] = benchmark::Counter(
+        static_cast<double>(town().scene.static_triangles()) * 1e-6 * static_cast<double>(state.iterations()),
+        benchmark::Counter::kIsRate);
 }
 BENCHMARK(build_town)->Arg(64)->Arg(512)->Arg(4096)->Unit(benchmark::kMillisecond);
 

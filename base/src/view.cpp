@@ -22,7 +22,8 @@ bool is_finite(const glm::dmat4& matrix) {
 glm::dmat4 convert_depth(glm::dmat4 clip, ClipDepth clip_depth) {
     if (clip_depth == ClipDepth::NegativeOneToOne) return clip;
     const double sign = clip_depth == ClipDepth::ZeroToOne ? 0.5 : -0.5;
-    for (int column = 0; column < 4; ++column) clip[column][2] = sign * clip[column][2] + 0.5 * clip[column][3];
+    for (int column = 0; column < 4; ++column)
+        clip[column][2] = sign * clip[column][2] + 0.5 * clip[column][3];
     return clip;
 }
 
@@ -46,7 +47,8 @@ Status validate(const View& view) {
     const double volume = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
     if (!(std::abs(glm::determinant(axes)) > 1e-9 * volume))
         return Error{"the camera is singular (is it looking along its own up vector?)"};
-    // Rows x, y and w of the projection must be independent: otherwise two side planes of the frustum coincide.
+    // Rows x, y and w of the projection must be independent: otherwise two side planes of the frustum
+    // coincide.
     const glm::dmat4 rows = glm::transpose(view.clip_from_camera);
     const auto is_zero = [](const glm::dvec4& row) { return glm::dot(row, row) == 0.0; };
     if (is_zero(rows[0]) || is_zero(rows[1]) || is_zero(rows[3]) || !(view.eye() == view.eye()))
@@ -75,7 +77,8 @@ glm::dmat4 perspective(double fov_y, double aspect, double near, double far, Cli
     clip[0][0] = focal / aspect;
     clip[1][1] = focal;
     clip[2][3] = -1.0;
-    // Each convention is written out: converting from OpenGL's loses the far plane when near/far is below 1e-16.
+    // Each convention is written out: converting from OpenGL's loses the far plane when near/far is below
+    // 1e-16.
     switch (clip_depth) {
         case ClipDepth::NegativeOneToOne:
             clip[2][2] = infinite ? -1.0 : (far + near) / (near - far);

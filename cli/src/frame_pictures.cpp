@@ -39,9 +39,9 @@ Result<ViewFromAbove> ViewFromAbove::create(int width, int height) {
     return ViewFromAbove(std::move(target).value(), std::move(lines).value());
 }
 
-gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& plan, const FramePlanner& planner,
-                                const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
-                                gl::Executor& executor) {
+gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& plan,
+                                const FramePlanner& planner, const gl::SceneBuffers& buffers,
+                                const Aabb& bounds, const View& view, gl::Executor& executor) {
     const double aspect = static_cast<double>(target_.width()) / target_.height();
     const View above = view_from_above(bounds, buffers.origin(), aspect, view.clip_depth);
     target_.begin(view.clip_depth, kPaper);

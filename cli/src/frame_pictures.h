@@ -10,15 +10,17 @@
 
 namespace rhview::cli {
 
-/// What was drawn of a scene, seen from above: drawn triangles in colour, the rest in grey, the boxes of what the
-/// planner chose, the frustum.
+/// What was drawn of a scene, seen from above: drawn triangles in colour, the rest in grey, the boxes of what
+/// the planner chose, the frustum.
 class ViewFromAbove {
   public:
     static Result<ViewFromAbove> create(int width, int height);
 
-    /// `everything` and `plan` are for the same buffers; `bounds` is the scene's, relative to the buffers' origin.
+    /// `everything` and `plan` are for the same buffers; `bounds` is the scene's, relative to the buffers'
+    /// origin.
     gl::Picture draw(const FramePlan& everything, const FramePlan& plan, const FramePlanner& planner,
-                     const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view, gl::Executor& executor);
+                     const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
+                     gl::Executor& executor);
 
   private:
     ViewFromAbove(gl::RenderTarget target, gl::LineDrawer lines);

@@ -23,8 +23,9 @@ Json to_json(const Scene& scene) {
     };
     Json materials = Json::array();
     for (const Material& material : scene.materials)
-        materials.push_back(
-            {{"name", material.name}, {"two_sided", material.two_sided}, {"alpha_tested", material.alpha_tested}});
+        materials.push_back({{"name", material.name},
+                             {"two_sided", material.two_sided},
+                             {"alpha_tested", material.alpha_tested}});
     return {{"schema", "rhview.info/1"},
             {"name", scene.name},
             {"triangles", scene.static_triangles() + scene.dynamic_triangles()},
@@ -66,12 +67,12 @@ void print(const Scene& scene) {
     if (!scene.dynamic_objects.empty())
         fmt::print(", {} placed by {} dynamic objects", grouped(scene.dynamic_triangles()),
                    grouped(scene.dynamic_objects.size()));
-    fmt::print("\n  vertices    {} ({} MiB), indices {} MiB\n", grouped(scene.vertex_count()), scene.vertex_bytes() >> 20,
-               scene.index_bytes() >> 20);
-    fmt::print("  materials   {} ({} two-sided, {} alpha-tested) in {} batches\n", scene.materials.size(), two_sided,
-               alpha_tested, scene.batches.size());
-    fmt::print("  extent      {:.6g} x {:.6g} x {:.6g} m around ({:.6g}, {:.6g}, {:.6g})\n", extent.x, extent.y, extent.z,
-               scene.origin.x + static_cast<double>(bounds.centre().x),
+    fmt::print("\n  vertices    {} ({} MiB), indices {} MiB\n", grouped(scene.vertex_count()),
+               scene.vertex_bytes() >> 20, scene.index_bytes() >> 20);
+    fmt::print("  materials   {} ({} two-sided, {} alpha-tested) in {} batches\n", scene.materials.size(),
+               two_sided, alpha_tested, scene.batches.size());
+    fmt::print("  extent      {:.6g} x {:.6g} x {:.6g} m around ({:.6g}, {:.6g}, {:.6g})\n", extent.x,
+               extent.y, extent.z, scene.origin.x + static_cast<double>(bounds.centre().x),
                scene.origin.y + static_cast<double>(bounds.centre().y),
                scene.origin.z + static_cast<double>(bounds.centre().z));
     for (const std::string& warning : scene.warnings) fmt::print("  warning     {}\n", warning);
@@ -94,7 +95,8 @@ Result<int> run_info(const InfoOptions& options) {
     if (!loaded) return loaded.error();
     print(loaded->scene);
     if (json) {
-        const std::string text = to_json(loaded->scene).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        const std::string text =
+            to_json(loaded->scene).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
         if (Status status = json->commit(text); !status) return status.error();
     }
     return kDone;

@@ -39,7 +39,8 @@ void add_walk(CLI::App& app, WalkOptions& options) {
     walk->add_option("--method", options.method, fmt::format("{}", fmt::join(method_names(), ", ")))
         ->type_name("M")
         ->capture_default_str();
-    walk->add_option("--mode", options.mode, "exact: everything is proved in the same frame")->capture_default_str();
+    walk->add_option("--mode", options.mode, "exact: everything is proved in the same frame")
+        ->capture_default_str();
     walk->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
         ->type_name("FILE");
     walk->add_option("--frames", options.frames, "Frames to measure")
@@ -52,15 +53,17 @@ void add_walk(CLI::App& app, WalkOptions& options) {
     walk->add_option("--leaf", options.leaf, "Triangles per octree leaf, at most")
         ->check(CLI::Range(1u, 4'000'000'000u))
         ->capture_default_str();
-    walk->add_option("--submission", options.submission, "plain: a call per range; multi: a multi-draw per batch")
+    walk->add_option("--submission", options.submission,
+                     "plain: a call per range; multi: a multi-draw per batch")
         ->capture_default_str();
     walk->add_flag("--check", options.check, "Compare every frame's depth with drawing everything");
     walk->add_option("--check-every", options.check_every, "Check every N-th frame only (implies --check)")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000))
         ->each([&options](const std::string&) { options.check = true; });
-    walk->add_option("--freeze-culling", options.freeze_culling,
-                     "From this frame on, cull for its camera while the picture's goes on: shows what is left out")
+    walk->add_option(
+            "--freeze-culling", options.freeze_culling,
+            "From this frame on, cull for its camera while the picture's goes on: shows what is left out")
         ->type_name("FRAME")
         ->check(CLI::Range(0, 1'000'000));
     walk->add_option("--json", options.json, "Write the results as JSON (rhview.walk/1)")->type_name("FILE");
@@ -85,7 +88,8 @@ int run(int argc, char** argv) {
     CLI::App app("rhview: the cheapest list of draw calls that shows every visible pixel", "rhview");
     app.require_subcommand(1);
     app.set_version_flag("--version", kVersion);
-    const CLI::App* scenes = app.add_subcommand("scenes", "The named procedural scenes, their parameters and sizes");
+    const CLI::App* scenes =
+        app.add_subcommand("scenes", "The named procedural scenes, their parameters and sizes");
     InfoOptions info;
     add_info(app, info);
     WalkOptions walk;
@@ -96,7 +100,8 @@ int run(int argc, char** argv) {
         return app.exit(done);
     } catch (const CLI::ParseError& error) {
         if (argc < 2)
-            return fail(fmt::format("which verb? The verbs are {}; rhview --help tells more", fmt::join(kVerbs, ", ")));
+            return fail(fmt::format("which verb? The verbs are {}; rhview --help tells more",
+                                    fmt::join(kVerbs, ", ")));
         return fail(one_sentence(error.what()) + "; see rhview " + argv[1] + " --help");
     }
     const Result<int> code = app.got_subcommand(scenes->get_name()) ? run_scenes()

@@ -36,11 +36,13 @@ std::span<const std::uint32_t> PreparedMethod::static_indices() const {
 
 std::unique_ptr<FramePlanner> make_reference(const Scene& scene) {
     std::vector<std::uint32_t> counts;
-    for (const SceneBatch& batch : scene.batches) counts.push_back(static_cast<std::uint32_t>(batch.indices.size()));
+    for (const SceneBatch& batch : scene.batches)
+        counts.push_back(static_cast<std::uint32_t>(batch.indices.size()));
     return std::make_unique<DrawEverything>(counts, scene.bounds());
 }
 
-Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene, std::uint32_t max_leaf_triangles) {
+Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
+                                      std::uint32_t max_leaf_triangles) {
     PreparedMethod prepared;
     if (method == "none") {
         prepared.planner = make_reference(scene);

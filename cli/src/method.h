@@ -31,7 +31,8 @@ struct PreparedMethod {
 };
 
 /// Builds what `method` needs; `scene` outlives it. Leaves hold at most `max_leaf_triangles`.
-Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene, std::uint32_t max_leaf_triangles);
+Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
+                                      std::uint32_t max_leaf_triangles);
 
 /// The planner of what the picture must equal, whatever the order of the static indices.
 std::unique_ptr<FramePlanner> make_reference(const Scene& scene);

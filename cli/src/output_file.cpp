@@ -9,7 +9,8 @@ namespace rhview::cli {
 namespace {
 
 Error unwritable(const std::filesystem::path& file) {
-    return Error{file.string() + ": can't be written; check that the folder exists, may be written to and has space"};
+    return Error{file.string() +
+                 ": can't be written; check that the folder exists, may be written to and has space"};
 }
 
 }  // namespace
@@ -18,7 +19,9 @@ OutputFile::OutputFile(std::filesystem::path file, std::filesystem::path tempora
     : file_(std::move(file)), temporary_(std::move(temporary)), stream_(temporary_, std::ios::binary) {}
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
-    : file_(std::move(other.file_)), temporary_(std::move(other.temporary_)), stream_(std::move(other.stream_)) {
+    : file_(std::move(other.file_)),
+      temporary_(std::move(other.temporary_)),
+      stream_(std::move(other.stream_)) {
     other.temporary_.clear();
 }
 

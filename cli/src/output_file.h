@@ -11,8 +11,8 @@
 
 namespace rhview::cli {
 
-/// A text file that appears whole or not at all: written beside its place, then renamed. Opening it first tells of an
-/// unwritable place before any work is done.
+/// A text file that appears whole or not at all: written beside its place, then renamed. Opening it first
+/// tells of an unwritable place before any work is done.
 class OutputFile {
   public:
     static Result<OutputFile> open(const std::filesystem::path& file);

@@ -32,7 +32,8 @@ void Progress::show(const std::string& what, int done, int total) {
     if (!terminal_ || percent == last_percent_) return;
     last_percent_ = percent;
     const int filled = kBarWidth * percent / 100;
-    fmt::print(stderr, "{}{} [{:#<{}}{:.<{}}] {}/{}", kEraseLine, what, "", filled, "", kBarWidth - filled, done, total);
+    fmt::print(stderr, "{}{} [{:#<{}}{:.<{}}] {}/{}", kEraseLine, what, "", filled, "", kBarWidth - filled,
+               done, total);
 }
 
 }  // namespace rhview::cli

@@ -16,7 +16,7 @@ Result<SceneAndPath> load_scene(const std::string& spec) {
     if (is_named_scene(spec) || !looks_like_file) return make_named_scene(spec);
     Result<Scene> scene = import_scene(spec);
     if (!scene) return scene.error();
-    CameraPath path = walkthrough_of_bounds(scene->bounds(), scene->origin);
+    CameraPath path = walkthrough_of_scene(*scene);
     return SceneAndPath{std::move(scene).value(), std::move(path)};
 }
 

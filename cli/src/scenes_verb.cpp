@@ -12,8 +12,8 @@ Result<int> run_scenes() {
     for (const NamedSceneInfo& scene : named_scenes()) {
         fmt::print("{}\n  {}\n  default: {}\n", scene.name, scene.description, scene.default_size);
         for (const SceneParameter& p : scene.parameters)
-            fmt::print("  {:<10} {} (default {}, from {} to {})\n", p.name, p.meaning, p.default_value, p.minimum,
-                       p.maximum);
+            fmt::print("  {:<10} {} (default {}, from {} to {})\n", p.name, p.meaning, p.default_value,
+                       p.minimum, p.maximum);
         fmt::print("\n");
     }
     fmt::print("Parameters follow the name: rhview walk town:size=300,materials=12\n");

@@ -59,12 +59,14 @@ Json summary_json(const WalkReport& report) {
     summary["nodes_visited"] = statistics(report, [](const FrameRecord& f) { return f.nodes_visited; });
     summary["cull_ms"] = statistics(report, [](const FrameRecord& f) { return f.cull_ms; });
     summary["frame_ms"] = statistics(report, [](const FrameRecord& f) { return f.frame_ms; });
-    summary["gpu_ms"] =
-        has_gpu ? statistics(report, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); }) : Json(nullptr);
+    summary["gpu_ms"] = has_gpu
+                            ? statistics(report, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); })
+                            : Json(nullptr);
     summary["predicted_ms"] = nullptr;
     summary["prediction_error"] = nullptr;
     summary["visible_objects"] =
-        has_objects ? statistics(report, [](const FrameRecord& f) { return f.visible_objects; }) : Json(nullptr);
+        has_objects ? statistics(report, [](const FrameRecord& f) { return f.visible_objects; })
+                    : Json(nullptr);
     summary["lod_error_px"] = nullptr;
     summary["missing_pixels"] = missing_pixels_json(report);
     summary["plan_hash"] = fmt::format("{:016x}", report.plan_hash);
@@ -73,8 +75,8 @@ Json summary_json(const WalkReport& report) {
 
 std::string table_row(const char* name, int decimals, const std::vector<double>& values) {
     const Statistics s = summarise(values);
-    return fmt::format("  {:<16}{:>14.{}f}{:>14.{}f}{:>14.{}f}{:>14.{}f}\n", name, s.mean, decimals, s.median, decimals,
-                       s.p95, decimals, s.max, decimals);
+    return fmt::format("  {:<16}{:>14.{}f}{:>14.{}f}{:>14.{}f}{:>14.{}f}\n", name, s.mean, decimals, s.median,
+                       decimals, s.p95, decimals, s.max, decimals);
 }
 
 }  // namespace
@@ -99,22 +101,23 @@ std::string to_json(const WalkReport& report) {
                      {"dynamic_objects", report.scene.dynamic_objects},
                      {"dynamic_triangles", report.scene.dynamic_triangles},
                      {"materials", report.scene.materials}};
-    json["device"] = {
-        {"renderer", report.device.renderer}, {"version", report.device.version}, {"timer", report.device.timer}};
-    json["profile"] = {
-        {"c0_ns", nullptr}, {"c1_ns", nullptr}, {"c3_ns", nullptr}, {"query_ns", nullptr}, {"source", nullptr}};
+    json["device"] = {{"renderer", report.device.renderer},
+                      {"version", report.device.version},
+                      {"timer", report.device.timer}};
+    json["profile"] = {{"c0_ns", nullptr},
+                       {"c1_ns", nullptr},
+                       {"c3_ns", nullptr},
+                       {"query_ns", nullptr},
+                       {"source", nullptr}};
     json["method"] = report.method;
     json["mode"] = report.mode;
     json["submission"] = report.submission;
     json["leaf"] = report.build.nodes ? Json(report.leaf) : Json(nullptr);
     json["frames"] = report.frames.size();
     json["size"] = {report.width, report.height};
-    json["build"] = {{"ms", or_null(report.build.ms)},
-                     {"nodes", or_null(report.build.nodes)},
-                     {"leaves", or_null(report.build.leaves)},
-                     {"replica_bytes", report.build.replica_bytes},
-                     {"index_bytes", report.build.index_bytes},
-                     {"vertex_bytes", report.build.vertex_bytes}};
+    json["build"] = {{"ms", or_null(report.build.ms)},          {"nodes", or_null(report.build.nodes)},
+                     {"leaves", or_null(report.build.leaves)},  {"replica_bytes", report.build.replica_bytes},
+                     {"index_bytes", report.build.index_bytes}, {"vertex_bytes", report.build.vertex_bytes}};
     json["summary"] = summary_json(report);
     json["per_frame"] = Json::array();
     for (const FrameRecord& f : report.frames)
@@ -134,10 +137,12 @@ std::string to_json(const WalkReport& report) {
 }
 
 std::string to_csv(const WalkReport& report) {
-    std::string csv = "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels\n";
+    std::string csv =
+        "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels\n";
     for (const FrameRecord& f : report.frames) {
-        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{}\n", f.frame, f.draw_calls, f.sub_draws, f.indices,
-                           f.nodes_visited, f.cull_ms, f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
+        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{}\n", f.frame, f.draw_calls, f.sub_draws,
+                           f.indices, f.nodes_visited, f.cull_ms, f.frame_ms,
+                           f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
                            f.missing_pixels ? std::to_string(*f.missing_pixels) : "");
     }
     return csv;
@@ -148,12 +153,14 @@ std::string to_table(const WalkReport& report) {
         "{}: {:.2f} M triangles, {} material{}{}\n", report.scene.name,
         static_cast<double>(report.scene.static_triangles + report.scene.dynamic_triangles) * 1e-6,
         report.scene.materials, report.scene.materials == 1 ? "" : "s",
-        report.scene.dynamic_objects > 0 ? fmt::format(", {} dynamic objects", report.scene.dynamic_objects) : "");
+        report.scene.dynamic_objects > 0 ? fmt::format(", {} dynamic objects", report.scene.dynamic_objects)
+                                         : "");
     if (report.build.nodes)
         table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, built in {:.0f} ms\n",
-                             *report.build.nodes, *report.build.leaves, report.leaf, report.build.ms.value_or(0.0));
-    table += fmt::format("{}: {} frames of {}x{} on {}, timed by the {}\n\n", report.method, report.frames.size(),
-                         report.width, report.height, report.device.renderer,
+                             *report.build.nodes, *report.build.leaves, report.leaf,
+                             report.build.ms.value_or(0.0));
+    table += fmt::format("{}: {} frames of {}x{} on {}, timed by the {}\n\n", report.method,
+                         report.frames.size(), report.width, report.height, report.device.renderer,
                          report.device.timer == "gpu" ? "GPU and the wall clock" : "wall clock");
     table += fmt::format("  {:<16}{:>14}{:>14}{:>14}{:>14}\n", "per frame", "mean", "median", "p95", "max");
     const auto row = [&](const char* name, int decimals, auto field) {
@@ -170,8 +177,8 @@ std::string to_table(const WalkReport& report) {
     if (!report.frames.empty() && report.frames.front().gpu_ms)
         row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
     if (const int checked = report.checked_frames(); checked > 0)
-        table += fmt::format("\n  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
-                             checked == 1 ? "" : "s");
+        table += fmt::format("\n  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(),
+                             checked, checked == 1 ? "" : "s");
     return table;
 }
 

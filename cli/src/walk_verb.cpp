@@ -34,13 +34,15 @@ Result<PictureSize> parse_size(const std::string& text) {
         const auto height = std::from_chars(width.ptr + 1, end, size.height);
         if (height.ec == std::errc() && height.ptr == end && size.width > 0 && size.height > 0) return size;
     }
-    return Error{"--size " + text + ": not a picture size; write WIDTHxHEIGHT, both at least 1, as in 1280x720"};
+    return Error{"--size " + text +
+                 ": not a picture size; write WIDTHxHEIGHT, both at least 1, as in 1280x720"};
 }
 
 Status check_options(const WalkOptions& options) {
     const std::vector<std::string> methods = method_names();
     if (std::ranges::find(methods, options.method) == methods.end())
-        return Error{fmt::format("--method {}: unknown; the methods are {}", options.method, fmt::join(methods, ", "))};
+        return Error{fmt::format("--method {}: unknown; the methods are {}", options.method,
+                                 fmt::join(methods, ", "))};
     if (options.mode != "exact")
         return Error{fmt::format("--mode {}: unknown; the only mode is exact", options.mode)};
     if (options.submission != "plain" && options.submission != "multi")
@@ -76,7 +78,8 @@ struct Outputs {
 /// Everything a walk needs on the device, and the walk itself.
 class Walk {
   public:
-    Walk(const WalkOptions& options, const SceneAndPath& loaded, PreparedMethod& method, const gl::DeviceInfo& device)
+    Walk(const WalkOptions& options, const SceneAndPath& loaded, PreparedMethod& method,
+         const gl::DeviceInfo& device)
         : options_(options),
           scene_(loaded.scene),
           path_(loaded.path),
@@ -104,7 +107,8 @@ class Walk {
             const bool checked = options_.check && frame % options_.check_every == 0;
             const bool pictured = options_.images && frame % options_.images_every == 0;
             if (checked || pictured)
-                if (Status status = compare_with_everything(frame, checked, pictured, record); !status) return status;
+                if (Status status = compare_with_everything(frame, checked, pictured, record); !status)
+                    return status;
             report.frames.push_back(record);
         }
         const std::string error = gl::take_error();
@@ -175,7 +179,8 @@ class Walk {
         target_->read_depth(culled_depths_);
         std::optional<gl::Picture> culled;
         if (pictured) culled.emplace(target_->read_colour());
-        reference_->plan({.culling_view = view, .scene_origin = scene_.origin, .object_boxes = object_boxes_}, everything_);
+        reference_->plan({.culling_view = view, .scene_origin = scene_.origin, .object_boxes = object_boxes_},
+                         everything_);
         target_->begin(clip_depth_, kSky);
         executor_->draw(everything_, *buffers_, view);
         target_->read_depth(reference_depths_);
@@ -218,8 +223,8 @@ class Walk {
 WalkReport describe(const WalkOptions& options, const Scene& scene, const PreparedMethod& method,
                     const gl::DeviceInfo& device, PictureSize size) {
     WalkReport report;
-    report.scene = {scene.name, scene.static_triangles(), scene.dynamic_objects.size(), scene.dynamic_triangles(),
-                    scene.materials.size()};
+    report.scene = {scene.name, scene.static_triangles(), scene.dynamic_objects.size(),
+                    scene.dynamic_triangles(), scene.materials.size()};
     report.device = {device.renderer, device.version, "wall"};
     report.build.ms = method.build_ms;
     if (method.octree != nullptr) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 //
-// Planes: Gribb & Hartmann, "Fast extraction of viewing frustum planes from the world-view-projection matrix", 2001.
-// Test: Assarsson & Möller, "Optimized view frustum culling algorithms for bounding boxes", 2000 (p- and n-vertex, plane
-// masks), with the slack derived below.
+// Planes: Gribb & Hartmann, "Fast extraction of viewing frustum planes from the world-view-projection
+// matrix", 2001. Test: Assarsson & Möller, "Optimized view frustum culling algorithms for bounding boxes",
+// 2000 (p- and n-vertex, plane masks), with the slack derived below.
 
 #include "rhview/frustum/frustum.h"
 
@@ -16,9 +16,10 @@
 namespace rhview {
 namespace {
 
-// Slack. Let u = 2^-24. The renderer evaluates a plane a ± b (two rows of the clip matrix) at v - eye in float:
-// rounding v - eye (2u), the matrix entries (1u), three products and three sums (4u) gives at most 7u · Σ w_j |v_j - eye_j|
-// with w_j = |a_j| + |b_j|. Our own test rounds the normal, the corner, products and sums: 6u of the same sum at most.
+// Slack. Let u = 2^-24. The renderer evaluates a plane a ± b (two rows of the clip matrix) at v - eye in
+// float: rounding v - eye (2u), the matrix entries (1u), three products and three sums (4u) gives at most 7u
+// · Σ w_j |v_j - eye_j| with w_j = |a_j| + |b_j|. Our own test rounds the normal, the corner, products and
+// sums: 6u of the same sum at most.
 constexpr double kRoundingUnits = 16.0;
 constexpr double kUnit = 0x1p-24;
 
@@ -28,7 +29,8 @@ constexpr double kEyeSplit = 0x1p-46;
 // Below this share of its rows a combined normal is cancellation noise: the plane is at infinity.
 constexpr double kNoNormal = 1e-13;
 
-FrustumPlane make_plane(const glm::dvec4& a, const glm::dvec4& b, double sign, double eye_magnitude, bool& exists) {
+FrustumPlane make_plane(const glm::dvec4& a, const glm::dvec4& b, double sign, double eye_magnitude,
+                        bool& exists) {
     const glm::dvec4 sum = a + sign * b;
     const glm::dvec4 weight = glm::abs(a) + glm::abs(b);
     const glm::dvec3 weight3(weight);
@@ -88,9 +90,11 @@ Containment classify(const Frustum& frustum, const Aabb& box, PlaneMask& mask) {
     for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
         const int index = std::countr_zero(rest);
         const FrustumPlane& plane = frustum.planes[index];
-        const glm::vec3 p_vertex(plane.normal.x >= 0.0f ? high.x : low.x, plane.normal.y >= 0.0f ? high.y : low.y,
+        const glm::vec3 p_vertex(plane.normal.x >= 0.0f ? high.x : low.x,
+                                 plane.normal.y >= 0.0f ? high.y : low.y,
                                  plane.normal.z >= 0.0f ? high.z : low.z);
-        const glm::vec3 n_vertex(plane.normal.x >= 0.0f ? low.x : high.x, plane.normal.y >= 0.0f ? low.y : high.y,
+        const glm::vec3 n_vertex(plane.normal.x >= 0.0f ? low.x : high.x,
+                                 plane.normal.y >= 0.0f ? low.y : high.y,
                                  plane.normal.z >= 0.0f ? low.z : high.z);
         const float slack = glm::dot(plane.slack_per_metre, reach) + plane.slack;
         // Written so that NaN proves nothing: both comparisons are then false.

@@ -38,13 +38,15 @@ std::vector<Candidate> headless_displays() {
         EGLint count = 0;
         if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) {
             for (EGLint i = 0; i < count; ++i)
-                candidates.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr),
+                candidates.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT,
+                                                               devices[static_cast<std::size_t>(i)], nullptr),
                                       "EGL device " + std::to_string(i)});
         }
     }
     if (platform && has_client_extension("EGL_MESA_platform_surfaceless"))
-        candidates.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
-                              "EGL surfaceless"});
+        candidates.push_back(
+            {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+             "EGL surfaceless"});
     if (candidates.empty()) candidates.push_back({eglGetDisplay(EGL_DEFAULT_DISPLAY), "EGL default display"});
     return candidates;
 }
@@ -52,18 +54,16 @@ std::vector<Candidate> headless_displays() {
 EGLContext create_context(EGLDisplay display, int version, bool debug) {
     EGLConfig config = EGL_NO_CONFIG_KHR;
     if (!epoxy_has_egl_extension(display, "EGL_KHR_no_config_context")) {
-        const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
+        const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+                                 EGL_NONE};
         EGLint count = 0;
         if (!eglChooseConfig(display, wanted, &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
     }
     std::vector<EGLint> attributes;
     if (version > 0) {
-        attributes = {EGL_CONTEXT_MAJOR_VERSION,
-                      version / 10,
-                      EGL_CONTEXT_MINOR_VERSION,
-                      version % 10,
-                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+        attributes = {EGL_CONTEXT_MAJOR_VERSION,       version / 10,
+                      EGL_CONTEXT_MINOR_VERSION,       version % 10,
+                      EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
         if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
     }
     attributes.push_back(EGL_NONE);
@@ -77,7 +77,8 @@ void APIENTRY forward_to_log(GLenum, GLenum type, GLuint, GLenum severity, GLsiz
         level = LogLevel::Error;
     else if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
         level = LogLevel::Warning;
-    log(level, length >= 0 ? std::string_view(text, static_cast<std::size_t>(length)) : std::string_view(text));
+    log(level,
+        length >= 0 ? std::string_view(text, static_cast<std::size_t>(length)) : std::string_view(text));
 }
 
 std::string gl_text(GLenum name) {
@@ -115,7 +116,8 @@ struct Context::State {
     /// Makes a context of `candidate` current. `found` says what was there when it could not.
     bool open(const Candidate& candidate, bool debug, std::string& found) {
         display = candidate.display;
-        if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API)) {
+        if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) ||
+            !eglBindAPI(EGL_OPENGL_API)) {
             found = candidate.name + " has no OpenGL";
             return false;
         }
@@ -151,7 +153,8 @@ const DeviceInfo& Context::device() const {
 Result<Context> Context::create_headless(const ContextOptions& options) {
     // libepoxy ends the process when it can't find the library; ask first.
     void* library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-    if (library == nullptr) return Error{"no EGL library (libEGL.so.1) was found; install libegl1 and a driver"};
+    if (library == nullptr)
+        return Error{"no EGL library (libEGL.so.1) was found; install libegl1 and a driver"};
     dlclose(library);
 
     std::unique_ptr<State> best;

@@ -39,7 +39,8 @@ void main() {
 }
 )";
 
-// A sun, a sky and the light that the ground throws back. Without normals the surface is flat, facing the viewer.
+// A sun, a sky and the light that the ground throws back. Without normals the surface is flat, facing the
+// viewer.
 constexpr const char* kFragmentShader = R"(#version 430 core
 in vec3 relative;
 in vec3 surface_normal;
@@ -79,7 +80,9 @@ Result<Executor> Executor::create() {
     if (!program) return program.error();
     Executor executor;
     executor.program_ = std::move(program).value();
-    const auto location = [&](const char* name) { return glGetUniformLocation(executor.program_.name(), name); };
+    const auto location = [&](const char* name) {
+        return glGetUniformLocation(executor.program_.name(), name);
+    };
     executor.uniforms_ = {location("clip_from_relative"), location("eye_high"), location("eye_low"),
                           location("normal_matrix"), location("override_colour")};
     return executor;
@@ -95,13 +98,14 @@ void Executor::begin(const View& view, const DrawOptions& options) const {
     const bool clip_control = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
     RHVIEW_ASSERT(clip_control || view.clip_depth == ClipDepth::NegativeOneToOne);
     if (clip_control)
-        glClipControl(GL_LOWER_LEFT,
-                      view.clip_depth == ClipDepth::NegativeOneToOne ? GL_NEGATIVE_ONE_TO_ONE : GL_ZERO_TO_ONE);
+        glClipControl(GL_LOWER_LEFT, view.clip_depth == ClipDepth::NegativeOneToOne ? GL_NEGATIVE_ONE_TO_ONE
+                                                                                    : GL_ZERO_TO_ONE);
     const glm::vec3 colour = options.colour.value_or(glm::vec3(0.0f));
     glUniform4f(uniforms_.override_colour, colour.r, colour.g, colour.b, options.colour ? 1.0f : 0.0f);
 }
 
-void Executor::set_transform(const View& view, const glm::dvec3& origin, const glm::dmat4& scene_from_mesh) const {
+void Executor::set_transform(const View& view, const glm::dvec3& origin,
+                             const glm::dmat4& scene_from_mesh) const {
     const glm::dmat3 linear(scene_from_mesh);
     const glm::dvec3 eye = glm::inverse(linear) * (view.eye() - origin - glm::dvec3(scene_from_mesh[3]));
     const glm::vec3 high(eye);
@@ -125,7 +129,8 @@ void Executor::set_state(const DrawState& state) {
     state.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
 }
 
-void Executor::draw_ranges(std::span<const DrawRange> ranges, Submission submission, FrameCounters& counters) {
+void Executor::draw_ranges(std::span<const DrawRange> ranges, Submission submission,
+                           FrameCounters& counters) {
     counts_.clear();
     offsets_.clear();
     for (const DrawRange& range : ranges) {

@@ -52,7 +52,8 @@ void Lines::add_frustum(const View& view, double reach) {
     glm::dvec3 tips[4];
     for (int i = 0; i < 4; ++i) {
         // The near corner's direction serves any far plane, one at infinity too.
-        const glm::dvec4 corner = relative_from_clip * glm::dvec4(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, near, 1.0);
+        const glm::dvec4 corner =
+            relative_from_clip * glm::dvec4(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, near, 1.0);
         tips[i] = eye + reach * glm::normalize(glm::dvec3(corner) / corner.w);
         points.push_back(eye);
         points.push_back(tips[i]);
@@ -99,8 +100,8 @@ void LineDrawer::draw(const Lines& lines, const View& view, const glm::vec3& col
     glUniform3f(colour_, colour.r, colour.g, colour.b);
     glBindVertexArray(vertex_array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec4)), vertices.data(),
-                 GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec4)),
+                 vertices.data(), GL_STREAM_DRAW);
     glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(vertices.size()));
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }

@@ -99,12 +99,14 @@ Picture difference_picture(const Picture& reference, std::span<const float> cull
     }
     constexpr int kGrow = 2;
     const auto depth_index = [&](int x, int y) {
-        return static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
     };
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const std::size_t i = depth_index(x, y);
-            if (std::bit_cast<std::uint32_t>(culled_depths[i]) == std::bit_cast<std::uint32_t>(reference_depths[i]))
+            if (std::bit_cast<std::uint32_t>(culled_depths[i]) ==
+                std::bit_cast<std::uint32_t>(reference_depths[i]))
                 continue;
             for (int v = std::max(0, y - kGrow); v <= std::min(height - 1, y + kGrow); ++v) {
                 for (int u = std::max(0, x - kGrow); u <= std::min(width - 1, x + kGrow); ++u) {

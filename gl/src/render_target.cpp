@@ -45,7 +45,8 @@ Result<RenderTarget> RenderTarget::create(int width, int height) {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.colour_.name());
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth_.name());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        return Error{"the driver can't make a picture of " + size + " with 32-bit depth; choose a smaller one"};
+        return Error{"the driver can't make a picture of " + size +
+                     " with 32-bit depth; choose a smaller one"};
     return target;
 }
 
@@ -74,7 +75,8 @@ Picture RenderTarget::read_colour() {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
     for (int y = 0; y < height_; ++y)
-        std::copy_n(rows.data() + row_bytes * static_cast<std::size_t>(height_ - 1 - y), row_bytes, picture.row(y));
+        std::copy_n(rows.data() + row_bytes * static_cast<std::size_t>(height_ - 1 - y), row_bytes,
+                    picture.row(y));
     return picture;
 }
 

@@ -22,7 +22,8 @@ Buffer make_buffer(GLenum target, std::size_t bytes) {
 
 template <class T>
 void write(GLenum target, std::size_t& offset, std::span<const T> values) {
-    glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(values.size_bytes()), values.data());
+    glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(values.size_bytes()),
+                    values.data());
     offset += values.size_bytes();
 }
 
@@ -84,10 +85,11 @@ Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const st
 
     const auto state_of = [&](MaterialId material_id, std::uint32_t pool) {
         const Material& material = scene.materials[index_of(material_id)];
-        return DrawState{buffers.vertex_arrays_[pool].name(), material.colour, !scene.pools[pool].colours.empty(),
-                         material.two_sided};
+        return DrawState{buffers.vertex_arrays_[pool].name(), material.colour,
+                         !scene.pools[pool].colours.empty(), material.two_sided};
     };
-    for (const SceneBatch& batch : scene.batches) buffers.batches_.push_back(state_of(batch.material, batch.pool));
+    for (const SceneBatch& batch : scene.batches)
+        buffers.batches_.push_back(state_of(batch.material, batch.pool));
     for (const DynamicObject& object : scene.dynamic_objects) {
         const SceneMesh& mesh = scene.meshes[index_of(object.mesh)];
         buffers.objects_.push_back({state_of(mesh.material, mesh.pool), first_of_mesh[index_of(object.mesh)],
@@ -95,8 +97,8 @@ Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const st
     }
     buffers.bytes_ = index_bytes + scene.vertex_bytes();
     if (const std::string error = take_error(); !error.empty())
-        return Error{fmt::format("{}: the driver could not take {} MiB of vertices and indices ({})", scene.name,
-                                 buffers.bytes_ >> 20, error)};
+        return Error{fmt::format("{}: the driver could not take {} MiB of vertices and indices ({})",
+                                 scene.name, buffers.bytes_ >> 20, error)};
     return buffers;
 }
 

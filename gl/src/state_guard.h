@@ -7,8 +7,8 @@
 
 namespace rhview::gl {
 
-/// Remembers the state that drawing touches and puts it back: program, vertex array, generic attribute values, culling,
-/// front face, depth test, depth function, depth mask and clip control.
+/// Remembers the state that drawing touches and puts it back: program, vertex array, generic attribute
+/// values, culling, front face, depth test, depth function, depth mask and clip control.
 class StateGuard {
   public:
     StateGuard();

@@ -5,8 +5,8 @@
 
 namespace rhview {
 
-void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frustum& frustum, const FrameInput& input,
-                        BatchSorter& sorter, FramePlan& plan) {
+void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frustum& frustum,
+                        const FrameInput& input, BatchSorter& sorter, FramePlan& plan) {
     plan.clear();
     append_ranges(octree, list, plan.opaque);
     sorter.sort(plan.opaque, octree.batch_count());

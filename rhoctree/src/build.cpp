@@ -9,8 +9,9 @@
 
 namespace rhview {
 
-/// Cuts the Morton order into nodes. Invariant: when a node is done, its triangles' indices stand in the index buffer
-/// of each batch right after those of the nodes before it, so children of one parent are contiguous.
+/// Cuts the Morton order into nodes. Invariant: when a node is done, its triangles' indices stand in the
+/// index buffer of each batch right after those of the nodes before it, so children of one parent are
+/// contiguous.
 class OctreeBuilder {
   public:
     OctreeBuilder(std::span<const TriangleBatch> batches, std::span<const MortonTriangle> triangles,
@@ -60,9 +61,9 @@ class OctreeBuilder {
         const std::uint64_t value = octant(begin, level);
         const int shift = 3 * (kMortonLevels - 1 - level);
         const auto first = triangles_.begin();
-        const auto found =
-            std::partition_point(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end),
-                                 [&](const MortonTriangle& t) { return t.code >> shift == value; });
+        const auto found = std::partition_point(
+            first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end),
+            [&](const MortonTriangle& t) { return t.code >> shift == value; });
         return static_cast<std::size_t>(found - first);
     }
 

@@ -58,7 +58,8 @@ void radix_sort(std::vector<MortonTriangle>& triangles) {
     for (unsigned shift = 0; shift < 3 * kMortonLevels; shift += kDigitBits) {
         std::array<std::uint32_t, kDigits> offset{};
         for (const MortonTriangle& t : triangles) ++offset[(t.code >> shift) & (kDigits - 1)];
-        if (std::ranges::find(offset, triangles.size()) != offset.end()) continue;  // one digit: sorted already
+        if (std::ranges::find(offset, triangles.size()) != offset.end())
+            continue;  // one digit: sorted already
         std::uint32_t sum = 0;
         for (std::uint32_t& count : offset) sum += std::exchange(count, sum);
         for (const MortonTriangle& t : triangles) other[offset[(t.code >> shift) & (kDigits - 1)]++] = t;
@@ -93,7 +94,8 @@ Result<std::vector<MortonTriangle>> sort_by_morton_code(std::span<const Triangle
     triangles.reserve(index_count / 3);
     for (std::uint32_t b = 0; b < batches.size(); ++b) {
         for (std::uint32_t t = 0; t < batches[b].indices.size() / 3; ++t) {
-            const glm::dvec3 cell = glm::min((corner_sum(batches[b], t) - low) * cells_per_unit, kCells - 1.0);
+            const glm::dvec3 cell =
+                glm::min((corner_sum(batches[b], t) - low) * cells_per_unit, kCells - 1.0);
             const auto bits = [](double c) { return spread_bits(static_cast<std::uint64_t>(c)); };
             triangles.push_back({bits(cell.x) | bits(cell.y) << 1 | bits(cell.z) << 2, b, t});
         }

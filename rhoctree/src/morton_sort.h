@@ -17,7 +17,7 @@ namespace rhview {
 inline constexpr int kMortonLevels = 21;  ///< three bits a level in 63
 
 struct MortonTriangle {
-    std::uint64_t code = 0;      ///< level l's octant is bits [3·(20 - l), 3·(20 - l) + 3)
+    std::uint64_t code = 0;  ///< level l's octant is bits [3·(20 - l), 3·(20 - l) + 3)
     std::uint32_t batch = 0;
     std::uint32_t triangle = 0;  ///< within its batch
 };

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 //
-// An engine's own triangles, culled for one camera. The engine's renderer is replaced by two functions that print.
+// An engine's own triangles, culled for one camera. The engine's renderer is replaced by two functions that
+// print.
 
 #include <cstdint>
 #include <cstdio>
@@ -45,7 +46,8 @@ int main() {
     build_houses(positions, indices);
 
     // [snippet]
-    // Once: your triangles, one batch per material. Vertices stay where they are, indices come back in a new order.
+    // Once: your triangles, one batch per material. Vertices stay where they are, indices come back in a new
+    // order.
     const rhview::TriangleBatch batch{rhview::MaterialId{0}, positions, indices};
     const auto octree = rhview::build_octree({&batch, 1}, {.max_leaf_triangles = 1});
     if (!octree) return std::puts(octree.error().message.c_str()), 1;
@@ -61,7 +63,7 @@ int main() {
     for (const rhview::DrawRange& range : plan.opaque) draw_indexed(range.first_index, range.index_count);
     // [/snippet]
 
-    std::printf("drew %u of %zu houses with %d draw call%s\n", drawn_indices / 3, indices.size() / 3, draw_calls,
-                draw_calls == 1 ? "" : "s");
+    std::printf("drew %u of %zu houses with %d draw call%s\n", drawn_indices / 3, indices.size() / 3,
+                draw_calls, draw_calls == 1 ? "" : "s");
     return 0;
 }

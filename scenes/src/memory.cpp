@@ -33,8 +33,8 @@ std::uint64_t available_memory_bytes() {
 
 std::uint64_t estimated_scene_bytes(std::uint64_t triangles, std::uint64_t vertices,
                                     std::uint64_t bytes_per_vertex) {
-    // Indices: the scene's, the octree's ordered copy, the driver's two uploads (12 bytes each); sorting keys and order
-    // (24 bytes); nodes and ranges (at most 8). Vertices: the scene's and the driver's.
+    // Indices: the scene's, the octree's ordered copy, the driver's two uploads (12 bytes each); sorting keys
+    // and order (24 bytes); nodes and ranges (at most 8). Vertices: the scene's and the driver's.
     constexpr std::uint64_t kBytesPerTriangle = 4 * 12 + 24 + 8;
     return triangles * kBytesPerTriangle + 2 * vertices * bytes_per_vertex;
 }
@@ -43,8 +43,8 @@ Status check_memory(const std::string& what, std::uint64_t needed_bytes) {
     const std::uint64_t available = available_memory_bytes();
     if (needed_bytes <= available) return success();
     constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
-    return Error{fmt::format("{} needs about {:.1f} GiB of memory and {:.1f} GiB are free; make it smaller", what,
-                             static_cast<double>(needed_bytes) / kGibibyte,
+    return Error{fmt::format("{} needs about {:.1f} GiB of memory and {:.1f} GiB are free; make it smaller",
+                             what, static_cast<double>(needed_bytes) / kGibibyte,
                              static_cast<double>(available) / kGibibyte)};
 }
 

@@ -43,7 +43,8 @@ std::uint64_t Scene::static_triangles() const {
 
 std::uint64_t Scene::dynamic_triangles() const {
     std::uint64_t total = 0;
-    for (const DynamicObject& object : dynamic_objects) total += meshes[index_of(object.mesh)].indices.size() / 3;
+    for (const DynamicObject& object : dynamic_objects)
+        total += meshes[index_of(object.mesh)].indices.size() / 3;
     return total;
 }
 

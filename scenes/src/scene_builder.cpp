@@ -3,6 +3,7 @@
 
 #include "rhview/scenes/scene_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -14,6 +15,7 @@ namespace rhview {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNotFinite = kNone - 1;  // a vertex whose place is not finite
 constexpr std::size_t kFormats = 4;
 
 std::size_t format_of(bool normals, bool colours) {
@@ -23,6 +25,32 @@ std::size_t format_of(bool normals, bool colours) {
 bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+
+/// An affine map as it acts on positions, normals and windings.
+struct Placement {
+    explicit Placement(const glm::dmat4& target_from_piece)
+        : matrix(target_from_piece), mirrored(glm::determinant(glm::dmat3(target_from_piece)) < 0.0) {
+        // The cofactor matrix carries normals through any affine map, singular ones included (Abrash; Garrity
+        // 2008).
+        const glm::dmat3 linear(matrix);
+        normals = glm::dmat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                             glm::cross(linear[0], linear[1])) *
+                  (mirrored ? -1.0 : 1.0);
+    }
+    [[nodiscard]] glm::vec3 position(const glm::vec3& p) const {
+        return {matrix * glm::dvec4(glm::dvec3(p), 1.0)};
+    }
+    [[nodiscard]] PackedNormal normal(const glm::vec3& source) const {
+        const glm::dvec3 n = normals * glm::dvec3(source);
+        const double length = glm::length(n);
+        return pack_normal(length > 0.0 && std::isfinite(length) ? glm::vec3(n / length)
+                                                                 : glm::vec3(0, 1, 0));
+    }
+
+    glm::dmat4 matrix;
+    glm::dmat3 normals;
+    bool mirrored;
+};
 
 }  // namespace
 
@@ -59,52 +87,56 @@ SceneBatch& SceneBuilder::batch_for(MaterialId material, std::uint32_t pool) {
 void SceneBuilder::append(const MeshPiece& piece, const glm::dmat4& target_from_piece, std::uint32_t pool_id,
                           std::vector<std::uint32_t>& indices, Aabb& bounds) {
     VertexPool& pool = scene_.pools[pool_id];
-    const glm::dmat3 linear(target_from_piece);
-    const bool mirrored = glm::determinant(linear) < 0.0;
-    // The cofactor matrix carries normals through any affine map, singular ones included (Abrash; Garrity 2008).
-    const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                              glm::cross(linear[0], linear[1]));
-    const double side = mirrored ? -1.0 : 1.0;
-
-    new_index_.assign(piece.positions.size(), kNone);
-    const auto place = [&](std::uint32_t vertex) {
-        return glm::vec3(target_from_piece * glm::dvec4(glm::dvec3(piece.positions[vertex]), 1.0));
-    };
+    if (indices.size() + piece.indices.size() >= kNone) {
+        too_large_ = true;
+        return;
+    }
+    const Placement placement(target_from_piece);
+    if (new_index_.size() < piece.positions.size()) new_index_.resize(piece.positions.size(), kNone);
+    const auto is_new = [&](std::uint32_t vertex) { return new_index_[vertex] >= kNotFinite; };
     const auto store = [&](std::uint32_t vertex, const glm::vec3& position) {
-        if (new_index_[vertex] != kNone) return new_index_[vertex];
-        const auto index = static_cast<std::uint32_t>(pool.positions.size());
+        new_index_[vertex] = static_cast<std::uint32_t>(pool.positions.size());
         pool.positions.push_back(position);
         bounds.grow(position);
-        if (!piece.normals.empty()) {
-            const glm::dvec3 n = side * (cofactor * glm::dvec3(piece.normals[vertex]));
-            const double length = glm::length(n);
-            pool.normals.push_back(
-                pack_normal(length > 0.0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0, 1, 0)));
-        }
+        if (!piece.normals.empty()) pool.normals.push_back(placement.normal(piece.normals[vertex]));
         if (!piece.colours.empty()) pool.colours.push_back(piece.colours[vertex]);
-        return new_index_[vertex] = index;
+    };
+    // Stores the corners that are new. All are placed before any is stored: a dropped triangle leaves no
+    // vertex.
+    const auto store_new = [&](const std::array<std::uint32_t, 3>& corners) {
+        std::array<glm::vec3, 3> places;
+        bool finite = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!is_new(corners[i])) continue;
+            places[i] = placement.position(piece.positions[corners[i]]);
+            if (!is_finite(places[i])) new_index_[corners[i]] = kNotFinite;
+            finite = finite && new_index_[corners[i]] != kNotFinite;
+        }
+        for (std::size_t i = 0; i < 3 && finite; ++i)
+            if (is_new(corners[i])) store(corners[i], places[i]);
+        return finite;
     };
 
-    for (std::size_t i = 0; i + 2 < piece.indices.size(); i += 3) {
-        const std::uint32_t a = piece.indices[i];
-        const std::uint32_t b = piece.indices[mirrored ? i + 2 : i + 1];
-        const std::uint32_t c = piece.indices[mirrored ? i + 1 : i + 2];
-        const glm::vec3 pa = place(a), pb = place(b), pc = place(c);
-        if (!is_finite(pa) || !is_finite(pb) || !is_finite(pc)) {
-            ++scene_.dropped_triangles;
-            continue;
+    for (std::size_t i = 0; i + 2 < piece.indices.size() && !too_large_; i += 3) {
+        const std::array<std::uint32_t, 3> corners{piece.indices[i],
+                                                   piece.indices[placement.mirrored ? i + 2 : i + 1],
+                                                   piece.indices[placement.mirrored ? i + 1 : i + 2]};
+        if (is_new(corners[0]) || is_new(corners[1]) || is_new(corners[2])) {
+            too_large_ = pool.positions.size() + 3 >= kNotFinite;
+            if (too_large_) break;
+            if (!store_new(corners)) {
+                ++scene_.dropped_triangles;
+                continue;
+            }
         }
-        if (pool.positions.size() + 3 >= kNone || indices.size() + 3 >= kNone) {
-            too_large_ = true;
-            return;
-        }
-        indices.push_back(store(a, pa));
-        indices.push_back(store(b, pb));
-        indices.push_back(store(c, pc));
+        for (const std::uint32_t corner : corners) indices.push_back(new_index_[corner]);
     }
+    // Only what was touched is reset: pieces may share one long position array.
+    for (const std::uint32_t vertex : piece.indices) new_index_[vertex] = kNone;
 }
 
-void SceneBuilder::add_static(MaterialId material, const MeshPiece& piece, const glm::dmat4& world_from_piece) {
+void SceneBuilder::add_static(MaterialId material, const MeshPiece& piece,
+                              const glm::dmat4& world_from_piece) {
     const std::uint32_t pool = pool_for(!piece.normals.empty(), !piece.colours.empty());
     SceneBatch& batch = batch_for(material, pool);
     glm::dmat4 scene_from_piece = world_from_piece;
@@ -140,9 +172,12 @@ void SceneBuilder::reserve(MaterialId material, bool normals, bool colours, std:
                            std::size_t indices) {
     const std::uint32_t pool_id = pool_for(normals, colours);
     VertexPool& pool = scene_.pools[pool_id];
-    pool.positions.reserve(pool.positions.size() + vertices);
-    if (normals) pool.normals.reserve(pool.normals.size() + vertices);
-    if (colours) pool.colours.reserve(pool.colours.size() + vertices);
+    // Batches share their format's pool: what was asked for before has not been added yet.
+    std::size_t& reserved = reserved_vertices_[format_of(normals, colours)];
+    reserved = std::max(reserved, pool.positions.size()) + vertices;
+    pool.positions.reserve(reserved);
+    if (normals) pool.normals.reserve(reserved);
+    if (colours) pool.colours.reserve(reserved);
     SceneBatch& batch = batch_for(material, pool_id);
     batch.indices.reserve(batch.indices.size() + indices);
 }
@@ -152,7 +187,8 @@ Result<Scene> SceneBuilder::finish(std::string name) {
     const bool too_large = too_large_;
     *this = SceneBuilder();
     if (too_large) {
-        return Error{name + ": more than 4,294,967,294 vertices or indices in one vertex format; split the scene"};
+        return Error{name +
+                     ": more than 4,294,967,294 vertices or indices in one vertex format; split the scene"};
     }
     std::erase_if(scene.batches, [](const SceneBatch& batch) { return batch.indices.empty(); });
     if (scene.batches.empty() && scene.dynamic_objects.empty()) {

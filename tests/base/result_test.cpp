@@ -30,7 +30,8 @@ TEST(Result, value_moves_out) {
 }
 
 TEST(Assert, broken_contract_is_counted_by_the_handler_where_asserts_are_on) {
-    const AssertHandler previous = set_assert_handler([](const char*, const char*, int) { ++broken_contracts; });
+    const AssertHandler previous =
+        set_assert_handler([](const char*, const char*, int) { ++broken_contracts; });
     broken_contracts = 0;
     int evaluated = 0;
     RHVIEW_ASSERT(++evaluated > 100);

@@ -16,7 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 View sample_view() {
     return {look_along({1e7, 20.0, -3e6}, {1.0, -0.2, 3.0}, {0.0, 1.0, 0.0}),
-            perspective(1.0, 16.0 / 9.0, 0.1, 500.0, ClipDepth::NegativeOneToOne), ClipDepth::NegativeOneToOne};
+            perspective(1.0, 16.0 / 9.0, 0.1, 500.0, ClipDepth::NegativeOneToOne),
+            ClipDepth::NegativeOneToOne};
 }
 
 TEST(View, eye_is_where_the_camera_was_put) {
@@ -36,7 +37,9 @@ TEST(View, perspective_maps_near_and_far_to_the_ends_of_each_clip_depth) {
     const struct {
         ClipDepth depth;
         double near, far;
-    } cases[] = {{ClipDepth::NegativeOneToOne, -1, 1}, {ClipDepth::ZeroToOne, 0, 1}, {ClipDepth::ReversedZeroToOne, 1, 0}};
+    } cases[] = {{ClipDepth::NegativeOneToOne, -1, 1},
+                 {ClipDepth::ZeroToOne, 0, 1},
+                 {ClipDepth::ReversedZeroToOne, 1, 0}};
     for (const auto& c : cases) {
         for (const double far : {1e3, 1e9}) {
             for (const bool ortho : {false, true}) {
@@ -48,7 +51,8 @@ TEST(View, perspective_maps_near_and_far_to_the_ends_of_each_clip_depth) {
                 EXPECT_NEAR(at_far.z / at_far.w, c.far, 1e-9);
             }
         }
-        const glm::dvec4 distant = perspective(1.2, 1.5, 0.1, kInfinity, c.depth) * glm::dvec4(0, 0, -1e12, 1);
+        const glm::dvec4 distant =
+            perspective(1.2, 1.5, 0.1, kInfinity, c.depth) * glm::dvec4(0, 0, -1e12, 1);
         EXPECT_NEAR(distant.z / distant.w, c.far, 1e-9);
     }
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 //
-// Bad input ends with exit code 2, one sentence on standard error that names the culprit, and no file left behind.
+// Bad input ends with exit code 2, one sentence on standard error that names the culprit, and no file left
+// behind.
 
 #include "program.h"
 
@@ -19,7 +20,8 @@ class BadInput : public ProgramTest {
         EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << arguments << "\n" << outcome.err;
         EXPECT_EQ(outcome.err.rfind("rhview: ", 0), 0u) << outcome.err;
         for (const std::string& word : words)
-            EXPECT_NE(outcome.err.find(word), std::string::npos) << arguments << "\n" << outcome.err << "lacks " << word;
+            EXPECT_NE(outcome.err.find(word), std::string::npos) << arguments << "\n"
+                                                                 << outcome.err << "lacks " << word;
         EXPECT_EQ(files_in_folder(), files) << arguments;
     }
     void refuse_path(const std::string& json, const std::vector<std::string>& words) {
@@ -33,7 +35,8 @@ TEST_F(BadInput, unknown_verbs_options_methods_and_modes) {
     refuse("wlak town", {"wlak", "scenes, info, walk"}, 0);
     refuse("walk town --colour red", {"--colour", "rhview walk --help"}, 0);
     refuse("walk", {"SCENE"}, 0);
-    refuse("walk town --method fastest", {"--method fastest", "none, frustum, octree, rhview-seed, rhview"}, 0);
+    refuse("walk town --method fastest", {"--method fastest", "none, frustum, octree, rhview-seed, rhview"},
+           0);
     refuse("walk town --mode guess", {"--mode guess"}, 0);
     refuse("walk town --submission bulk", {"--submission bulk"}, 0);
 }
@@ -69,9 +72,10 @@ TEST_F(BadInput, broken_files) {
     refuse("walk range.obj", {"range.obj"}, 3);
     write_file(folder_ / "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     refuse("walk points.obj", {"points.obj", "triangle"}, 4);
-    write_file(folder_ / "cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                                    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                    "end_header\n0 0 0\n1 0 0\n");
+    write_file(folder_ / "cut.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "end_header\n0 0 0\n1 0 0\n");
     refuse("walk cut.ply", {"cut.ply"}, 5);
     write_file(folder_ / "picture.jpg", "x");
     refuse("walk picture.jpg", {"picture.jpg", ".glb"}, 6);
@@ -92,15 +96,18 @@ TEST_F(BadInput, scene_larger_than_memory_is_refused_before_it_is_built) {
 }
 
 TEST_F(BadInput, camera_paths) {
-    const std::string head = R"({"schema": "rhview.path/1", "fov_y_deg": 60, "near": 0.1, "far": 100, "keys": [)";
+    const std::string head =
+        R"({"schema": "rhview.path/1", "fov_y_deg": 60, "near": 0.1, "far": 100, "keys": [)";
     const std::string first = R"({"time": 0, "eye": [0, 0, 0], "target": [1, 0, 0]})";
     const std::string second = R"({"time": 1, "eye": [0, 0, 0], "target": [1, 0, 0]})";
     refuse_path(head + "]}", {"path.json", "two"});
     refuse_path(head + first + "]}", {"path.json", "two"});
     refuse_path(head + first + "," + first + "]}", {"path.json", "key 1", "time"});
     refuse_path(head + first + R"(,{"time": 1, "eye": [0, 1e999, 0], "target": [1, 0, 0]}]})", {"path.json"});
-    refuse_path(head + first + R"(,{"time": 1, "eye": [0, 0, 0], "target": [0, 0, 0]}]})", {"path.json", "key 1"});
-    refuse_path(head + first + R"(,{"time": 1, "eye": [0, 0, 0], "target": [0, 5, 0]}]})", {"path.json", "key 1", "up"});
+    refuse_path(head + first + R"(,{"time": 1, "eye": [0, 0, 0], "target": [0, 0, 0]}]})",
+                {"path.json", "key 1"});
+    refuse_path(head + first + R"(,{"time": 1, "eye": [0, 0, 0], "target": [0, 5, 0]}]})",
+                {"path.json", "key 1", "up"});
     refuse_path(head + first + "," + second, {"path.json"});
     refuse_path(R"({"schema": "rhview.path/2", "keys": []})", {"path.json", "rhview.path/1"});
     refuse("walk soup --path nowhere.json", {"nowhere.json"}, 1);

@@ -50,8 +50,9 @@ class ProgramTest : public testing::Test {
     /// `environment` as in a shell: "A=1 B=2".
     Outcome run(const std::string& arguments, const std::string& environment = "") {
         const std::filesystem::path out = folder_ / ".out", err = folder_ / ".err";
-        const std::string command = "cd '" + folder_.string() + "' && " + environment + " '" RHVIEW_PROGRAM "' " +
-                                    arguments + " >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
+        const std::string command = "cd '" + folder_.string() + "' && " + environment +
+                                    " '" RHVIEW_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" +
+                                    err.string() + "' </dev/null";
         const int status = std::system(command.c_str());
         Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
         std::filesystem::remove(out);

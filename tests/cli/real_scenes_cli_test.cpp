@@ -18,7 +18,8 @@ TEST_P(RealScenes, no_method_misses_a_pixel) {
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real test scenes are not here: " << file;
     for (const char* method : {"none", "frustum", "octree", "rhview-seed"}) {
         const nlohmann::json walk =
-            walk_json("'" + file.string() + "' --frames 6 --warmup 0 --size 320x180 --leaf 500 --check --method " + method);
+            walk_json("'" + file.string() +
+                      "' --frames 6 --warmup 0 --size 320x180 --leaf 500 --check --method " + method);
         EXPECT_EQ(walk["scene"]["triangles"], GetParam().triangles);
         EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0) << method;
         EXPECT_GT(walk["summary"]["indices"]["mean"], 0) << method;
@@ -32,7 +33,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RealScenes,
                                          RealScene{"rvm_huldra_wd1_psup.glb", 85240}),
                          [](const auto& test) {
                              std::string name = test.param.file;
-                             std::ranges::replace_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+                             std::ranges::replace_if(
+                                 name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
+                                 '_');
                              return name;
                          });
 

@@ -15,7 +15,8 @@ class EveryMethod : public ProgramTest, public testing::WithParamInterface<const
 TEST_P(EveryMethod, misses_no_pixel_on_small_scenes) {
     for (const char* scene : {"town:size=96,materials=5", "indoor:rooms=4,floors=2", "city:blocks=3", "soup",
                               "plant:objects=3000", "farm:instances=12,mesh=3000"}) {
-        const nlohmann::json walk = walk_json(std::string(scene) + " --frames 10 --warmup 0 --size 200x120 --check --method " + GetParam());
+        const nlohmann::json walk = walk_json(
+            std::string(scene) + " --frames 10 --warmup 0 --size 200x120 --check --method " + GetParam());
         const nlohmann::json& missing = walk["summary"]["missing_pixels"];
         EXPECT_EQ(missing["total"], 0) << scene;
         EXPECT_EQ(missing["frames"], 0) << scene;
@@ -24,7 +25,8 @@ TEST_P(EveryMethod, misses_no_pixel_on_small_scenes) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::Values("none", "frustum", "octree", "rhview-seed", "rhview"),
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
+                         testing::Values("none", "frustum", "octree", "rhview-seed", "rhview"),
                          [](const auto& test) {
                              std::string name = test.param;
                              std::ranges::replace(name, '-', '_');
@@ -49,13 +51,16 @@ TEST_F(Walk, json_keeps_the_contract) {
     EXPECT_EQ(walk["size"], (nlohmann::json{160, 90}));
     for (const char* field : {"ms", "nodes", "replica_bytes", "index_bytes", "vertex_bytes"})
         EXPECT_TRUE(walk["build"][field].is_number()) << field;
-    for (const char* field : {"draw_calls", "sub_draws", "indices", "queries", "nodes_visited", "cull_ms", "frame_ms"})
+    for (const char* field :
+         {"draw_calls", "sub_draws", "indices", "queries", "nodes_visited", "cull_ms", "frame_ms"})
         for (const char* statistic : {"mean", "median", "p95", "max"})
             EXPECT_TRUE(walk["summary"][field][statistic].is_number()) << field;
     // What was not measured is null, never 0.
-    for (const char* field : {"predicted_ms", "prediction_error", "visible_objects", "lod_error_px", "missing_pixels"})
+    for (const char* field :
+         {"predicted_ms", "prediction_error", "visible_objects", "lod_error_px", "missing_pixels"})
         EXPECT_TRUE(walk["summary"][field].is_null()) << field;
-    EXPECT_TRUE(std::regex_match(walk["summary"]["plan_hash"].get<std::string>(), std::regex("[0-9a-f]{16}")));
+    EXPECT_TRUE(
+        std::regex_match(walk["summary"]["plan_hash"].get<std::string>(), std::regex("[0-9a-f]{16}")));
     ASSERT_EQ(walk["per_frame"].size(), 12u);
     double sum = 0.0;
     for (const nlohmann::json& frame : walk["per_frame"]) {
@@ -75,7 +80,9 @@ TEST_F(Walk, methods_without_an_octree_report_no_build) {
 }
 
 TEST_F(Walk, equal_walks_have_equal_plans_and_rhview_is_still_the_seeds_rule) {
-    const auto hash = [&](const std::string& options) { return walk_json(kSmallTown + options)["summary"]["plan_hash"]; };
+    const auto hash = [&](const std::string& options) {
+        return walk_json(kSmallTown + options)["summary"]["plan_hash"];
+    };
     const nlohmann::json seed = hash(" --method rhview-seed");
     EXPECT_EQ(seed, hash(" --method rhview-seed --check --submission multi"));
     EXPECT_EQ(seed, hash(" --method rhview"));
@@ -98,7 +105,8 @@ TEST_F(Walk, multi_draw_makes_one_call_per_batch) {
 }
 
 TEST_F(Walk, dynamic_objects_are_counted_and_culled) {
-    const nlohmann::json walk = walk_json("farm:instances=30,mesh=2000 --frames 8 --size 160x90 --warmup 0 --check");
+    const nlohmann::json walk =
+        walk_json("farm:instances=30,mesh=2000 --frames 8 --size 160x90 --warmup 0 --check");
     EXPECT_EQ(walk["scene"]["dynamic_objects"], 30);
     EXPECT_GT(walk["scene"]["dynamic_triangles"], 30 * 1000);
     EXPECT_LT(walk["summary"]["visible_objects"]["mean"], 30);
@@ -127,9 +135,11 @@ TEST_F(Walk, images_are_written_at_their_interval) {
 
 TEST_F(Walk, check_that_fails_exits_with_one_and_still_writes_the_results) {
     // Culling for the first frame's camera while the picture's moves on leaves visible triangles out.
-    const Outcome outcome = run("walk " + kSmallTown + " --leaf 64 --check --freeze-culling 0 --json walk.json");
+    const Outcome outcome =
+        run("walk " + kSmallTown + " --leaf 64 --check --freeze-culling 0 --json walk.json");
     EXPECT_EQ(outcome.code, 1);
-    const nlohmann::json missing = nlohmann::json::parse(read_file(folder_ / "walk.json"))["summary"]["missing_pixels"];
+    const nlohmann::json missing =
+        nlohmann::json::parse(read_file(folder_ / "walk.json"))["summary"]["missing_pixels"];
     EXPECT_GT(missing["total"], 0);
     EXPECT_GE(missing["total"], missing["max"]);
     EXPECT_GT(missing["frames"], 0);
@@ -144,8 +154,9 @@ TEST_F(Walk, check_every_nth_frame_checks_those_only) {
 }
 
 TEST_F(Walk, path_file_replaces_the_scenes_own) {
-    write_file(folder_ / "sky.json",
-               R"({"schema": "rhview.path/1", "fov_y_deg": 60, "near": 0.1, "far": 1000, "up": [0, 0, 1], "keys": [
+    write_file(
+        folder_ / "sky.json",
+        R"({"schema": "rhview.path/1", "fov_y_deg": 60, "near": 0.1, "far": 1000, "up": [0, 0, 1], "keys": [
                    {"time": 0, "eye": [0, 500, 0], "target": [0, 600, 0]},
                    {"time": 1, "eye": [0, 501, 0], "target": [0, 601, 0]}]})");
     const nlohmann::json walk = walk_json(kSmallTown + " --path sky.json --check");

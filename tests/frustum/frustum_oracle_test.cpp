@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 //
-// The promise that matters: what a renderer's float transform could put on the screen is never `Outside`, and `Inside`
-// means that no vertex is clipped. The oracle is that float transform itself, as `gl` does it, and long double.
+// The promise that matters: what a renderer's float transform could put on the screen is never `Outside`, and
+// `Inside` means that no vertex is clipped. The oracle is that float transform itself, as `gl` does it, and
+// long double.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,9 @@ class Uniform {
         return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
     }
     double log(double low, double high) { return std::exp2((*this)(std::log2(low), std::log2(high))); }
-    glm::dvec3 point(double reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
+    glm::dvec3 point(double reach) {
+        return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)};
+    }
 
   private:
     std::mt19937 engine_;
@@ -68,7 +71,8 @@ struct Case {
 
 class FrustumOracle : public testing::TestWithParam<Case> {};
 
-TEST_P(FrustumOracle, no_box_with_a_vertex_that_a_float_renderer_keeps_is_outside_and_inside_boxes_are_not_clipped) {
+TEST_P(FrustumOracle,
+       no_box_with_a_vertex_that_a_float_renderer_keeps_is_outside_and_inside_boxes_are_not_clipped) {
     const auto [offset, depth] = GetParam();
     Uniform uniform(static_cast<std::uint32_t>(offset) + static_cast<std::uint32_t>(depth));
     std::size_t outside = 0, inside = 0;
@@ -79,7 +83,8 @@ TEST_P(FrustumOracle, no_box_with_a_vertex_that_a_float_renderer_keeps_is_outsid
         const FloatRenderer renderer(view);
         for (int b = 0; b < 300; ++b) {
             const glm::vec3 centre(eye + uniform.point(uniform.log(0.1, 1e4)));
-            const glm::vec3 half(uniform.log(1e-6, 1e3) * glm::dvec3(uniform(0, 1), uniform(0, 1), uniform(0, 1)));
+            const glm::vec3 half(uniform.log(1e-6, 1e3) *
+                                 glm::dvec3(uniform(0, 1), uniform(0, 1), uniform(0, 1)));
             const Aabb box{centre - half, centre + half};
             PlaneMask mask = frustum.mask;
             const Containment answer = classify(frustum, box, mask);
@@ -91,7 +96,8 @@ TEST_P(FrustumOracle, no_box_with_a_vertex_that_a_float_renderer_keeps_is_outsid
                 broken_by_all &= broken;
                 broken_by_any |= broken;
             }
-            // The renderer throws a box away as a whole only if all its corners break one and the same condition.
+            // The renderer throws a box away as a whole only if all its corners break one and the same
+            // condition.
             if (answer == Containment::Outside) {
                 ++outside;
                 ASSERT_NE(broken_by_all, 0u) << "a box that may be drawn was rejected";

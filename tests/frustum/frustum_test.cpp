@@ -32,13 +32,13 @@ class FrustumInEveryClipDepth : public testing::TestWithParam<ClipDepth> {};
 TEST_P(FrustumInEveryClipDepth, boxes_are_outside_of_each_plane_inside_or_crossing) {
     const Frustum frustum = make_frustum(straight_view(GetParam()));
     EXPECT_EQ(classify_all(frustum, cube({0, 0, -50}, 1)), Containment::Inside);
-    EXPECT_EQ(classify_all(frustum, cube({-52, 0, -50}, 0.5f)), Containment::Outside);  // left
-    EXPECT_EQ(classify_all(frustum, cube({52, 0, -50}, 0.5f)), Containment::Outside);   // right
-    EXPECT_EQ(classify_all(frustum, cube({0, -52, -50}, 0.5f)), Containment::Outside);  // bottom
-    EXPECT_EQ(classify_all(frustum, cube({0, 52, -50}, 0.5f)), Containment::Outside);   // top
+    EXPECT_EQ(classify_all(frustum, cube({-52, 0, -50}, 0.5f)), Containment::Outside);   // left
+    EXPECT_EQ(classify_all(frustum, cube({52, 0, -50}, 0.5f)), Containment::Outside);    // right
+    EXPECT_EQ(classify_all(frustum, cube({0, -52, -50}, 0.5f)), Containment::Outside);   // bottom
+    EXPECT_EQ(classify_all(frustum, cube({0, 52, -50}, 0.5f)), Containment::Outside);    // top
     EXPECT_EQ(classify_all(frustum, cube({0, 0, -0.5f}, 0.25f)), Containment::Outside);  // near
-    EXPECT_EQ(classify_all(frustum, cube({0, 0, -102}, 1)), Containment::Outside);      // far
-    EXPECT_EQ(classify_all(frustum, cube({0, 0, 5}, 1)), Containment::Outside);         // behind
+    EXPECT_EQ(classify_all(frustum, cube({0, 0, -102}, 1)), Containment::Outside);       // far
+    EXPECT_EQ(classify_all(frustum, cube({0, 0, 5}, 1)), Containment::Outside);          // behind
     for (const glm::vec3 crossing : {glm::vec3(-50, 0, -50), glm::vec3(50, 0, -50), glm::vec3(0, -50, -50),
                                      glm::vec3(0, 50, -50), glm::vec3(0, 0, -1), glm::vec3(0, 0, -100)})
         EXPECT_EQ(classify_all(frustum, cube(crossing, 0.5f)), Containment::Intersecting);
@@ -126,7 +126,8 @@ int broken_contracts = 0;
 TEST(Frustum, singular_view_breaks_the_contract) {
     View view = straight_view();
     view.clip_from_camera[0][0] = 0.0;
-    const AssertHandler previous = set_assert_handler([](const char*, const char*, int) { ++broken_contracts; });
+    const AssertHandler previous =
+        set_assert_handler([](const char*, const char*, int) { ++broken_contracts; });
     make_frustum(view);
     set_assert_handler(previous);
     EXPECT_EQ(broken_contracts, 1);

@@ -20,8 +20,9 @@ Scene two_materials() {
     const MaterialId two_sided = builder.add_material({"two-sided", {0, 1, 0}, true, false});
     for (const MaterialId material : {plain, two_sided})
         for (const double x : {-2.0, 2.0})
-            builder.add_static(material, triangle_piece(),
-                               glm::translate(glm::dmat4(1.0), glm::dvec3(x, material == plain ? 1.0 : -1.0, 0)));
+            builder.add_static(
+                material, triangle_piece(),
+                glm::translate(glm::dmat4(1.0), glm::dvec3(x, material == plain ? 1.0 : -1.0, 0)));
     return builder.finish("two materials").value();
 }
 
@@ -59,8 +60,10 @@ TEST_F(GlTest, counts_calls_sub_draws_and_indices_of_plain_and_multi_draws) {
 TEST_F(GlTest, back_faces_are_drawn_for_two_sided_materials_only) {
     const Scene scene = two_materials();
     const SceneBuffers buffers = SceneBuffers::upload(scene).value();
-    const std::size_t front = covered_pixels(depths_of(whole_of(scene), buffers, view_at({0, 0, 0}, {0, 0, -1})));
-    const std::size_t back = covered_pixels(depths_of(whole_of(scene), buffers, view_at({0, 0, -10}, {0, 0, 1})));
+    const std::size_t front =
+        covered_pixels(depths_of(whole_of(scene), buffers, view_at({0, 0, 0}, {0, 0, -1})));
+    const std::size_t back =
+        covered_pixels(depths_of(whole_of(scene), buffers, view_at({0, 0, -10}, {0, 0, 1})));
     EXPECT_NEAR(static_cast<double>(back), static_cast<double>(front) / 2.0, 20.0);
 }
 
@@ -98,7 +101,8 @@ TEST_F(GlTest, colours_come_from_vertices_materials_or_the_override) {
     EXPECT_EQ(pixel(own, left).b, 0);
     EXPECT_GT(pixel(own, right).b, 100);
     EXPECT_EQ(pixel(own, right).r, 0);
-    depths_of(whole_of(scene), buffers, view, {.submission = Submission::Plain, .colour = glm::vec3(0, 1, 0)});
+    depths_of(whole_of(scene), buffers, view,
+              {.submission = Submission::Plain, .colour = glm::vec3(0, 1, 0)});
     const Picture green = target_->read_colour();
     EXPECT_GT(pixel(green, left).g, 100);
     EXPECT_EQ(pixel(green, right).b, 0);
@@ -107,7 +111,8 @@ TEST_F(GlTest, colours_come_from_vertices_materials_or_the_override) {
 TEST_F(GlTest, smooth_normals_are_lit_differently_from_each_side_of_a_surface) {
     SceneBuilder builder;
     const MaterialId material = builder.add_material({});
-    const std::vector<glm::vec3> towards_sun(3, glm::vec3(0.48f, 0.74f, 0.47f)), away(3, glm::vec3(-0.48f, -0.74f, -0.47f));
+    const std::vector<glm::vec3> towards_sun(3, glm::vec3(0.48f, 0.74f, 0.47f)),
+        away(3, glm::vec3(-0.48f, -0.74f, -0.47f));
     MeshPiece lit = triangle_piece(), dark = triangle_piece();
     lit.normals = towards_sun;
     dark.normals = away;

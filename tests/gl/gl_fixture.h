@@ -45,13 +45,14 @@ class GlTest : public testing::Test {
     FrameCounters counters_;
 };
 
-inline View view_at(const glm::dvec3& eye, const glm::dvec3& forward, ClipDepth depth = ClipDepth::NegativeOneToOne,
-                    double far = 1000.0) {
+inline View view_at(const glm::dvec3& eye, const glm::dvec3& forward,
+                    ClipDepth depth = ClipDepth::NegativeOneToOne, double far = 1000.0) {
     return {look_along(eye, forward, {0.0, 1.0, 0.0}), perspective(1.0, 4.0 / 3.0, 0.1, far, depth), depth};
 }
 
 /// Number of pixels that something was drawn to.
-inline std::size_t covered_pixels(const std::vector<float>& depths, ClipDepth depth = ClipDepth::NegativeOneToOne) {
+inline std::size_t covered_pixels(const std::vector<float>& depths,
+                                  ClipDepth depth = ClipDepth::NegativeOneToOne) {
     const float farthest = depth == ClipDepth::ReversedZeroToOne ? 0.0f : 1.0f;
     std::size_t covered = 0;
     for (const float d : depths) covered += d != farthest;

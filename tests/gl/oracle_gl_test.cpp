@@ -27,7 +27,8 @@ class Uniform {
     std::mt19937 engine_;
 };
 
-/// Scattered triangles in three materials, one of them two-sided, and placed objects: turned, mirrored, squashed.
+/// Scattered triangles in three materials, one of them two-sided, and placed objects: turned, mirrored,
+/// squashed.
 Scene scattered(const glm::dvec3& origin) {
     SceneBuilder builder(origin);
     const RandomGeometry geometry(41, 3, 1500, 60.0f);
@@ -35,13 +36,15 @@ Scene scattered(const glm::dvec3& origin) {
     for (std::size_t b = 0; b < 3; ++b) {
         const MaterialId material = builder.add_material({"", glm::vec3(0.8f), b == 2, false});
         for (std::size_t first = 0; first < geometry.indices[b].size(); first += 90)
-            builder.add_static(material,
-                               {geometry.positions, {}, {}, std::span(geometry.indices[b]).subspan(first, 90)}, to_world);
+            builder.add_static(
+                material, {geometry.positions, {}, {}, std::span(geometry.indices[b]).subspan(first, 90)},
+                to_world);
     }
     const MeshId mesh = builder.add_mesh(MaterialId{0}, triangle_piece()).value();
     Uniform uniform(42);
     for (int i = 0; i < 40; ++i) {
-        glm::dmat4 place = glm::translate(to_world, glm::dvec3(uniform(-60, 60), uniform(-9, 9), uniform(-60, 60)));
+        glm::dmat4 place =
+            glm::translate(to_world, glm::dvec3(uniform(-60, 60), uniform(-9, 9), uniform(-60, 60)));
         place = glm::rotate(place, uniform(0, 6), glm::dvec3(0.3, 1, 0.2));
         builder.add_dynamic(mesh, glm::scale(place, glm::dvec3(i % 2 ? -4.0 : 4.0, uniform(0.1, 5), 2.0)));
     }
@@ -67,7 +70,8 @@ std::vector<StaticObject> objects_of(const Scene& scene) {
 
 std::vector<Method> every_method(const Scene& scene) {
     std::vector<Method> methods;
-    methods.push_back({std::make_unique<FrustumObjects>(objects_of(scene)), nullptr, SceneBuffers::upload(scene).value()});
+    methods.push_back(
+        {std::make_unique<FrustumObjects>(objects_of(scene)), nullptr, SceneBuffers::upload(scene).value()});
     for (const bool seed : {false, true}) {
         auto octree = std::make_unique<RhOctree>(build_octree(scene.triangle_batches(), {40}).value());
         SceneBuffers buffers = SceneBuffers::upload(scene, octree->indices()).value();
@@ -97,7 +101,8 @@ TEST_P(Oracle, culled_frames_miss_no_pixel_from_random_views) {
     for (const DynamicObject& object : scene.dynamic_objects)
         boxes.push_back(transform_box(object.scene_from_mesh, scene.meshes[index_of(object.mesh)].bounds));
     std::vector<std::uint32_t> counts;
-    for (const SceneBatch& batch : scene.batches) counts.push_back(static_cast<std::uint32_t>(batch.indices.size()));
+    for (const SceneBatch& batch : scene.batches)
+        counts.push_back(static_cast<std::uint32_t>(batch.indices.size()));
     DrawEverything reference(counts, scene.bounds());
     const std::vector<Method> methods = every_method(scene);
 
@@ -124,12 +129,13 @@ TEST_P(Oracle, culled_frames_miss_no_pixel_from_random_views) {
     EXPECT_GT(covered, 40u * 3u * 1000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Views, Oracle,
-    testing::Values(OracleCase{ClipDepth::NegativeOneToOne, 0.0, 1000.0}, OracleCase{ClipDepth::ZeroToOne, 0.0, 30.0},
-                    OracleCase{ClipDepth::ReversedZeroToOne, 0.0, 30.0},
-                    OracleCase{ClipDepth::ReversedZeroToOne, 1e7, std::numeric_limits<double>::infinity()},
-                    OracleCase{ClipDepth::NegativeOneToOne, 1e5, 1e6}));
+INSTANTIATE_TEST_SUITE_P(Views, Oracle,
+                         testing::Values(OracleCase{ClipDepth::NegativeOneToOne, 0.0, 1000.0},
+                                         OracleCase{ClipDepth::ZeroToOne, 0.0, 30.0},
+                                         OracleCase{ClipDepth::ReversedZeroToOne, 0.0, 30.0},
+                                         OracleCase{ClipDepth::ReversedZeroToOne, 1e7,
+                                                    std::numeric_limits<double>::infinity()},
+                                         OracleCase{ClipDepth::NegativeOneToOne, 1e5, 1e6}));
 
 TEST_F(GlTest, oracle_sees_a_single_missing_triangle) {
     SceneBuilder builder;
@@ -154,7 +160,8 @@ TEST_F(GlTest, depths_do_not_depend_on_the_order_of_drawing) {
     const SceneBuffers source_order = SceneBuffers::upload(scene).value();
     const SceneBuffers base_order = SceneBuffers::upload(scene, octree.indices()).value();
     std::vector<std::uint32_t> counts;
-    for (const SceneBatch& batch : scene.batches) counts.push_back(static_cast<std::uint32_t>(batch.indices.size()));
+    for (const SceneBatch& batch : scene.batches)
+        counts.push_back(static_cast<std::uint32_t>(batch.indices.size()));
     DrawEverything everything(counts, scene.bounds());
     FramePlan plan;
     everything.plan({}, plan);

@@ -16,15 +16,19 @@ namespace {
 std::atomic<long> allocations{0};
 }
 
-// Counts every allocation of this program: the promise is that a warm planner makes none. Not inlined: GCC would see
-// malloc's memory given to a delete expression, and warn.
+// Counts every allocation of this program: the promise is that a warm planner makes none. Not inlined: GCC
+// would see malloc's memory given to a delete expression, and warn.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     ++allocations;
     if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
     throw std::bad_alloc();
 }
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
 
 namespace rhview {
 namespace {
@@ -43,9 +47,8 @@ TEST(SeedPlanner, ranges_are_grouped_by_batch_and_ordered_within) {
     FramePlan plan;
     planner.plan(input_at(0.4), plan);
     ASSERT_GT(plan.opaque.size(), 20u);
-    EXPECT_TRUE(std::ranges::is_sorted(plan.opaque, {}, [](const DrawRange& r) {
-        return std::pair(r.batch, r.first_index);
-    }));
+    EXPECT_TRUE(std::ranges::is_sorted(plan.opaque, {},
+                                       [](const DrawRange& r) { return std::pair(r.batch, r.first_index); }));
     std::size_t ranges = 0;
     for (const std::uint32_t node : plan.chosen) {
         ranges += octree.ranges(NodeId{node}).size();

@@ -100,8 +100,10 @@ TEST(OctreeBuild, sibling_centroids_lie_in_different_cells_of_one_grid) {
     const auto centroid_box = [&](std::uint32_t node) {
         Aabb box;
         for (const DrawRange& range : octree->ranges(NodeId{node})) {
-            for (const Triangle& t : triangles_of(octree->indices().subspan(range.first_index, range.index_count)))
-                box.grow((geometry.positions[t[0]] + geometry.positions[t[1]] + geometry.positions[t[2]]) / 3.0f);
+            for (const Triangle& t :
+                 triangles_of(octree->indices().subspan(range.first_index, range.index_count)))
+                box.grow((geometry.positions[t[0]] + geometry.positions[t[1]] + geometry.positions[t[2]]) /
+                         3.0f);
         }
         return box;
     };
@@ -113,7 +115,8 @@ TEST(OctreeBuild, sibling_centroids_lie_in_different_cells_of_one_grid) {
             for (std::size_t b = a + 1; b < boxes.size(); ++b) {
                 bool separated = false;
                 for (int axis = 0; axis < 3; ++axis)
-                    separated |= boxes[a].max[axis] < boxes[b].min[axis] || boxes[b].max[axis] < boxes[a].min[axis];
+                    separated |=
+                        boxes[a].max[axis] < boxes[b].min[axis] || boxes[b].max[axis] < boxes[a].min[axis];
                 EXPECT_TRUE(separated);
             }
         }
@@ -143,8 +146,8 @@ TEST(OctreeBuild, coincident_triangles_end_in_one_leaf_however_many) {
 
 TEST(OctreeBuild, huge_tiny_and_degenerate_triangles_are_all_kept) {
     constexpr float kMax = std::numeric_limits<float>::max();
-    const std::vector<glm::vec3> positions{{-kMax, -kMax, -kMax}, {kMax, kMax, kMax}, {kMax, -kMax, 0}, {1e-30f, 0, 0},
-                                           {0, 1e-30f, 0},        {1e7f, 1e7f, 1e7f}};
+    const std::vector<glm::vec3> positions{{-kMax, -kMax, -kMax}, {kMax, kMax, kMax}, {kMax, -kMax, 0},
+                                           {1e-30f, 0, 0},        {0, 1e-30f, 0},     {1e7f, 1e7f, 1e7f}};
     const std::vector<std::uint32_t> indices{0, 1, 2, 3, 4, 3, 5, 5, 5, 0, 0, 0, 3, 4, 5};
     const TriangleBatch batch{MaterialId{0}, positions, indices};
     const Result<RhOctree> octree = build_octree(std::span(&batch, 1), {1});
@@ -161,7 +164,8 @@ TEST(OctreeBuild, no_triangles_give_no_node) {
 }
 
 TEST(OctreeBuild, bad_batches_are_refused_by_name) {
-    const std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<float>::infinity(), 0}};
+    const std::vector<glm::vec3> positions{
+        {0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<float>::infinity(), 0}};
     const std::vector<std::uint32_t> out_of_range{0, 1, 0, 0, 1, 3};
     const std::vector<std::uint32_t> not_finite{0, 1, 2};
     const std::vector<std::uint32_t> cut_short{0, 1};

@@ -29,7 +29,8 @@ MeshPiece triangle(bool normals = false) {
 
 glm::vec3 face_normal(const Scene& scene, const SceneBatch& batch, std::size_t first) {
     const auto& p = scene.pools[batch.pool].positions;
-    const glm::vec3 a = p[batch.indices[first]], b = p[batch.indices[first + 1]], c = p[batch.indices[first + 2]];
+    const glm::vec3 a = p[batch.indices[first]], b = p[batch.indices[first + 1]],
+                    c = p[batch.indices[first + 2]];
     return glm::normalize(glm::cross(b - a, c - a));
 }
 
@@ -124,6 +125,33 @@ TEST(SceneBuilder, positions_are_relative_to_the_origin) {
     EXPECT_NEAR(scene->bounds().max.x, 5.0f, 1e-5f);
     EXPECT_EQ(scene->dynamic_triangles(), 1u);
     EXPECT_EQ(scene->meshes[0].bounds.max, glm::vec3(1, 1, 0));
+}
+
+TEST(SceneBuilder, dropped_vertex_of_one_object_is_forgotten_by_the_next) {
+    SceneBuilder builder;
+    const MaterialId material = builder.add_material({});
+    std::array<glm::vec3, 4> positions = kPositions;
+    positions[1].x = std::numeric_limits<float>::infinity();
+    builder.add_static(material, {positions, {}, {}, kIndices});
+    builder.add_static(material, triangle());
+    const Result<Scene> scene = builder.finish("reused");
+    ASSERT_TRUE(scene.ok());
+    EXPECT_EQ(scene->dropped_triangles, 1u);
+    EXPECT_EQ(scene->static_triangles(), 1u);
+    EXPECT_EQ(scene->pools[0].positions[1], kPositions[1]);
+}
+
+TEST(SceneBuilder, rooms_reserved_for_several_batches_of_a_pool_add_up) {
+    SceneBuilder builder;
+    const MaterialId red = builder.add_material({});
+    const MaterialId blue = builder.add_material({});
+    builder.reserve(red, true, false, 300, 3);
+    builder.reserve(blue, true, false, 500, 3);
+    builder.add_static(red, triangle(true));
+    const Result<Scene> scene = builder.finish("reserved");
+    ASSERT_TRUE(scene.ok());
+    EXPECT_EQ(scene->pools[0].positions.capacity(), 800u);
+    EXPECT_EQ(scene->pools[0].normals.capacity(), 800u);
 }
 
 TEST(PackedNormal, components_are_ten_signed_bits_from_x_up) {

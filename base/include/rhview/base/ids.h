@@ -19,7 +19,7 @@ enum class MeshId : std::uint32_t {};      ///< a mesh that objects share
 
 /// The id's place in its array.
 template <class Id>
-    requires std::is_enum_v<Id>
+requires std::is_enum_v<Id>
 constexpr std::size_t index_of(Id id) {
     return static_cast<std::size_t>(id);
 }

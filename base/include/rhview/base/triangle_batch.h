@@ -13,12 +13,12 @@
 
 namespace rhview {
 
-/// Triangles that one material draws from one vertex buffer. The engine owns both arrays and keeps them while they
-/// are read. `indices.size()` is a multiple of three and every index is below `positions.size()`.
+/// Triangles that one material draws from one vertex buffer. The engine owns both arrays and keeps them while
+/// they are read. `indices.size()` is a multiple of three and every index is below `positions.size()`.
 /// Several batches may share one `positions` array.
 struct TriangleBatch {
     MaterialId material{};
-    std::span<const glm::vec3> positions;     ///< scene space, metres
+    std::span<const glm::vec3> positions;    ///< scene space, metres
     std::span<const std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from its front
 };
 

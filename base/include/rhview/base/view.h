@@ -30,12 +30,12 @@ struct View {
     [[nodiscard]] glm::dmat4 clip_from_eye_relative() const;
 };
 
-/// Fails if a number is not finite, `camera_from_world` is not affine and invertible, or the projection is singular
-/// in x, y or w. A zero depth row is allowed: an infinite far plane has one.
+/// Fails if a number is not finite, `camera_from_world` is not affine and invertible, or the projection is
+/// singular in x, y or w. A zero depth row is allowed: an infinite far plane has one.
 Status validate(const View& view);
 
-/// A view at `eye` that looks along `forward`. `forward` and `up` need not be unit or orthogonal, but must not be
-/// parallel: such a view fails `validate`.
+/// A view at `eye` that looks along `forward`. `forward` and `up` need not be unit or orthogonal, but must
+/// not be parallel: such a view fails `validate`.
 glm::dmat4 look_along(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up);
 
 /// A symmetric perspective projection. `fov_y` in radians; 0 < `near` < `far`; `far` may be infinite.

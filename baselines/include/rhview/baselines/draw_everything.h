@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// Method `none`: the whole scene, one draw call per batch and per dynamic object. What the picture must equal.
+/// Method `none`: the whole scene, one draw call per batch and per dynamic object. What the picture must
+/// equal.
 #pragma once
 
 #include <vector>
@@ -13,8 +14,8 @@ namespace rhview {
 
 class DrawEverything final : public FramePlanner {
   public:
-    /// Batch i of the index buffer has `batch_index_counts[i]` indices, one batch after the other. `scene_bounds` is
-    /// what `bounds_of` answers.
+    /// Batch i of the index buffer has `batch_index_counts[i]` indices, one batch after the other.
+    /// `scene_bounds` is what `bounds_of` answers.
     DrawEverything(std::span<const std::uint32_t> batch_index_counts, const Aabb& scene_bounds);
 
     void plan(const FrameInput& input, FramePlan& plan) override;

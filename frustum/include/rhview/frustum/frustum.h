@@ -4,10 +4,10 @@
 /// \file
 /// View frustum planes and box classification.
 ///
-/// Conventions: plane normals point into the frustum and have unit length, so a signed distance is in world units.
-/// `Outside` and `Inside` are proofs, also far from the origin: the slack covers the rounding of this test and of a
-/// renderer that subtracts the eye and applies the camera-relative clip matrix in `float`, as `gl` does.
-/// `Intersecting` proves nothing.
+/// Conventions: plane normals point into the frustum and have unit length, so a signed distance is in world
+/// units. `Outside` and `Inside` are proofs, also far from the origin: the slack covers the rounding of this
+/// test and of a renderer that subtracts the eye and applies the camera-relative clip matrix in `float`, as
+/// `gl` does. `Intersecting` proves nothing.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ struct Frustum {
     enum Plane { Left, Right, Near, Far, Bottom, Top };
 
     std::array<FrustumPlane, 6> planes;
-    PlaneMask mask = 0;     ///< the planes that exist: a far plane at infinity does not
+    PlaneMask mask = 0;   ///< the planes that exist: a far plane at infinity does not
     glm::dvec3 eye{0.0};  ///< relative to the scene's origin
 };
 
@@ -47,9 +47,10 @@ struct Frustum {
 Frustum make_frustum(const View& view, const glm::dvec3& scene_origin = glm::dvec3(0.0));
 
 /// Classifies `box` against the planes set in `mask`.
-/// On return `mask` keeps only the planes that the box may cross, so a caller that descends a hierarchy passes it on;
-/// after `Outside` it means nothing. An empty box and one with NaN are `Intersecting`.
-/// Cost: two dot products per plane at most; no allocation. Thread-safe. Source: Assarsson & Möller 2000, section 3.
+/// On return `mask` keeps only the planes that the box may cross, so a caller that descends a hierarchy
+/// passes it on; after `Outside` it means nothing. An empty box and one with NaN are `Intersecting`. Cost:
+/// two dot products per plane at most; no allocation. Thread-safe. Source: Assarsson & Möller 2000,
+/// section 3.
 Containment classify(const Frustum& frustum, const Aabb& box, PlaneMask& mask);
 
 }  // namespace rhview

@@ -37,10 +37,11 @@ class Executor {
   public:
     static Result<Executor> create();
 
-    /// Draws `plan` into the bound framebuffer and viewport. The vertex transform depends on `view` and the scene alone,
-    /// so what two plans both draw gets the same depths to the last bit. Everything it touches of OpenGL's state is
-    /// put back. `view.clip_depth` other than OpenGL's own needs `DeviceInfo::clip_control`.
-    /// Cost: one API call per range, plus a handful per batch and object; no allocation after warm-up.
+    /// Draws `plan` into the bound framebuffer and viewport. The vertex transform depends on `view` and the
+    /// scene alone, so what two plans both draw gets the same depths to the last bit. Everything it touches
+    /// of OpenGL's state is put back. `view.clip_depth` other than OpenGL's own needs
+    /// `DeviceInfo::clip_control`. Cost: one API call per range, plus a handful per batch and object; no
+    /// allocation after warm-up.
     FrameCounters draw(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                        const DrawOptions& options = {});
 
@@ -60,7 +61,7 @@ class Executor {
 
     Program program_;
     Uniforms uniforms_;
-    std::vector<std::int32_t> counts_;     ///< scratch of a multi-draw
+    std::vector<std::int32_t> counts_;  ///< scratch of a multi-draw
     std::vector<const void*> offsets_;
 };
 

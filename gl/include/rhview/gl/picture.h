@@ -34,15 +34,17 @@ class Picture {
     [[nodiscard]] Status save_png(const std::filesystem::path& file) const;
 
   private:
-    [[nodiscard]] std::size_t row_offset(int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) * 3; }
+    [[nodiscard]] std::size_t row_offset(int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) * 3;
+    }
 
     int width_;
     int height_;
     std::vector<std::uint8_t> bytes_;
 };
 
-/// `reference` in dim grey, with the pixels whose depths differ in red, grown so that a single one can be seen.
-/// Depths are as `RenderTarget::read_depth` gives them: bottom row first.
+/// `reference` in dim grey, with the pixels whose depths differ in red, grown so that a single one can be
+/// seen. Depths are as `RenderTarget::read_depth` gives them: bottom row first.
 Picture difference_picture(const Picture& reference, std::span<const float> culled_depths,
                            std::span<const float> reference_depths);
 

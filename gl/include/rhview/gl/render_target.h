@@ -24,7 +24,8 @@ class RenderTarget {
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
-    /// Binds the target, sets the viewport to all of it, clears colour and depth (to the far end of `clip_depth`).
+    /// Binds the target, sets the viewport to all of it, clears colour and depth (to the far end of
+    /// `clip_depth`).
     void begin(ClipDepth clip_depth, const glm::vec3& background);
 
     /// Depths, row after row from the bottom; waits for the drawing.
@@ -40,8 +41,9 @@ class RenderTarget {
     int height_ = 0;
 };
 
-/// Pixels whose depth differs in any bit: the oracle of `--check`. The depth buffer is the extreme over all fragments,
-/// so it doesn't depend on draw order, and any difference is an error of the culling. The spans are of one length.
+/// Pixels whose depth differs in any bit: the oracle of `--check`. The depth buffer is the extreme over all
+/// fragments, so it doesn't depend on draw order, and any difference is an error of the culling. The spans
+/// are of one length.
 std::size_t count_missing_pixels(std::span<const float> culled, std::span<const float> reference);
 
 }  // namespace rhview::gl

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// A scene in the driver's memory: one vertex buffer per vertex format, one index buffer, a vertex array per format.
+/// A scene in the driver's memory: one vertex buffer per vertex format, one index buffer, a vertex array per
+/// format.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +36,10 @@ struct ObjectInstance {
 class SceneBuffers {
   public:
     /// Copies the scene. `static_indices` replaces the order of the static batches (batch after batch, as
-    /// `RhOctree::indices`); empty keeps the scene's own order. An error when the driver's memory is too small.
-    static Result<SceneBuffers> upload(const Scene& scene, std::span<const std::uint32_t> static_indices = {});
+    /// `RhOctree::indices`); empty keeps the scene's own order. An error when the driver's memory is too
+    /// small.
+    static Result<SceneBuffers> upload(const Scene& scene,
+                                       std::span<const std::uint32_t> static_indices = {});
 
     [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
     [[nodiscard]] std::span<const DrawState> batches() const { return batches_; }

@@ -36,9 +36,9 @@ class GpuTimer {
     Query query_;
 };
 
-/// Whether the GPU timer measures the whole of a frame, vertex work included: it is asked to time about 20 ms of work
-/// that is nearly all vertices, between two `finish`, and must report 80 to 110 % of what the wall clock says (median of
-/// five). Mesa's llvmpipe reports a hundredth.
+/// Whether the GPU timer measures the whole of a frame, vertex work included: it is asked to time about 20 ms
+/// of work that is nearly all vertices, between two `finish`, and must report 80 to 110 % of what the wall
+/// clock says (median of five). Mesa's llvmpipe reports a hundredth.
 struct TimerCheck {
     double gpu_share = 0.0;  ///< GPU time / wall time
     [[nodiscard]] bool gpu_timer_is_whole() const { return gpu_share >= 0.8 && gpu_share <= 1.1; }

@@ -17,13 +17,13 @@ namespace rhview {
 
 /// What a frame is planned from; the caller owns it.
 struct FrameInput {
-    View culling_view;                   ///< `validate` accepts it
-    glm::dvec3 scene_origin{0.0};      ///< world position of the zero of every box and vertex
+    View culling_view;                     ///< `validate` accepts it
+    glm::dvec3 scene_origin{0.0};          ///< world position of the zero of every box and vertex
     std::span<const Aabb> object_boxes{};  ///< of the dynamic objects, by `ObjectId`; contain what is drawn
 };
 
-/// One per view: it may remember earlier frames. Equal inputs in equal order give equal plans; after the largest frame
-/// seen nothing is allocated.
+/// One per view: it may remember earlier frames. Equal inputs in equal order give equal plans; after the
+/// largest frame seen nothing is allocated.
 class FramePlanner {
   public:
     virtual ~FramePlanner() = default;
@@ -34,6 +34,7 @@ class FramePlanner {
 };
 
 /// Appends the objects whose box is not outside. Cost: one box test each.
-void append_visible_objects(const Frustum& frustum, std::span<const Aabb> boxes, std::vector<ObjectId>& objects);
+void append_visible_objects(const Frustum& frustum, std::span<const Aabb> boxes,
+                            std::vector<ObjectId>& objects);
 
 }  // namespace rhview

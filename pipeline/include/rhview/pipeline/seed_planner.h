@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// The paper's planner (`rhview-seed`): frustum culling, then completely visible nodes instead of their leaves.
+/// The paper's planner (`rhview-seed`): frustum culling, then completely visible nodes instead of their
+/// leaves.
 #pragma once
 
 #include "rhview/pipeline/frame_planner.h"
@@ -25,8 +26,9 @@ class SeedPlanner final : public FramePlanner {
     BatchSorter sorter_;
 };
 
-/// Fills `plan` with the nodes of `list` and the objects in the frustum: what every planner over an octree ends with.
-void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frustum& frustum, const FrameInput& input,
-                        BatchSorter& sorter, FramePlan& plan);
+/// Fills `plan` with the nodes of `list` and the objects in the frustum: what every planner over an octree
+/// ends with.
+void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frustum& frustum,
+                        const FrameInput& input, BatchSorter& sorter, FramePlan& plan);
 
 }  // namespace rhview

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// Which nodes of an octree to draw for a frustum. Every triangle of every leaf that may be visible is covered, once.
+/// Which nodes of an octree to draw for a frustum. Every triangle of every leaf that may be visible is
+/// covered, once.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +20,11 @@ struct NodeList {
     std::uint64_t nodes_visited = 0;  ///< nodes the traversal touched
 };
 
-/// The paper's rule: a node that is completely visible (all its children are, so its box is inside the frustum) is drawn
-/// itself and its children are skipped; else its children are looked at, down to the leaves that may be visible. Gaps
-/// are never bridged, not even empty ones.
-/// Cost: linear in the nodes visited; a subtree outside is not entered, one inside is one node.
-/// Source: Serpa & Rodrigues 2018, section 3 ("Caso um nó esteja totalmente visível, é renderizado").
+/// The paper's rule: a node that is completely visible (all its children are, so its box is inside the
+/// frustum) is drawn itself and its children are skipped; else its children are looked at, down to the leaves
+/// that may be visible. Gaps are never bridged, not even empty ones. Cost: linear in the nodes visited; a
+/// subtree outside is not entered, one inside is one node. Source: Serpa & Rodrigues 2018, section 3 ("Caso
+/// um nó esteja totalmente visível, é renderizado").
 void seed_draw_list(const RhOctree& octree, const Frustum& frustum, NodeList& list);
 
 /// The plain octree's rule: every leaf that may be visible, on its own.

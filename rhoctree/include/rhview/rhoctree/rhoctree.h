@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// The replicated octree over static triangles: an order of the indices in which every node is one contiguous range per
-/// batch.
+/// The replicated octree over static triangles: an order of the indices in which every node is one contiguous
+/// range per batch.
 ///
-/// Every triangle belongs to exactly one leaf, by its centroid; node boxes are refitted to their triangles, so they may
-/// overlap. Vertices stay where the engine has them. Shared and const once built: any number of views may read it.
+/// Every triangle belongs to exactly one leaf, by its centroid; node boxes are refitted to their triangles,
+/// so they may overlap. Vertices stay where the engine has them. Shared and const once built: any number of
+/// views may read it.
 #pragma once
 
 #include <cstdint>
@@ -52,8 +53,8 @@ class RhOctree {
     [[nodiscard]] std::span<const DrawRange> ranges(NodeId id) const {
         return std::span(ranges_).subspan(node(id).first_range, node(id).range_count);
     }
-    /// The index buffer to draw from, in base order: batch after batch, leaves in depth-first order. A triangle's three
-    /// indices keep their order, so that depths agree to the last bit with the source's.
+    /// The index buffer to draw from, in base order: batch after batch, leaves in depth-first order. A
+    /// triangle's three indices keep their order, so that depths agree to the last bit with the source's.
     [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
     [[nodiscard]] std::size_t batch_count() const { return batch_count_; }
     [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
@@ -68,10 +69,10 @@ class RhOctree {
     std::size_t leaf_count_ = 0;
 };
 
-/// Builds the octree of `batches`; batch i is `BatchId{i}`. No batch, or batches without triangles, give no node.
-/// Deterministic. Errors name the batch and triangle: an index out of range, a corner that is not finite, an index count
-/// that is no multiple of three, more than 2^32 - 1 indices.
-/// Cost: O(n) in triangles (radix sort), 32 bytes of scratch per triangle.
+/// Builds the octree of `batches`; batch i is `BatchId{i}`. No batch, or batches without triangles, give no
+/// node. Deterministic. Errors name the batch and triangle: an index out of range, a corner that is not
+/// finite, an index count that is no multiple of three, more than 2^32 - 1 indices. Cost: O(n) in triangles
+/// (radix sort), 32 bytes of scratch per triangle.
 Result<RhOctree> build_octree(std::span<const TriangleBatch> batches, const OctreeOptions& options = {});
 
 }  // namespace rhview

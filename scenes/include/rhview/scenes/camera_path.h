@@ -6,8 +6,11 @@
 ///
 /// ```json
 /// {"schema": "rhview.path/1", "fov_y_deg": 60, "near": 0.1, "far": 1000, "up": [0, 1, 0],
-///  "keys": [{"time": 0, "eye": [0, 2, 0], "target": [0, 2, -1]}, {"time": 5, "eye": [9, 2, 0], "target": [9, 2, -1]}]}
+///  "keys": [{"time": 0, "eye": [0, 2, 0], "target": [0, 2, -1]},
+///           {"time": 5, "eye": [9, 2, 0], "target": [9, 2, -1]}]}
 /// ```
+///
+/// `schema` and `keys` are required, the other fields have the defaults of `CameraPath`.
 #pragma once
 
 #include <filesystem>
@@ -21,6 +24,8 @@
 #include "rhview/base/view.h"
 
 namespace rhview {
+
+struct Scene;
 
 struct CameraKey {
     double time_s = 0.0;
@@ -36,8 +41,8 @@ struct CameraPath {
     glm::dvec3 up{0.0, 1.0, 0.0};
     std::vector<CameraKey> keys;
 
-    /// The view at `time_s`, clamped to the keys' span. The eye moves linearly between keys (so it never leaves a
-    /// corridor that its keys keep to), the viewing direction turns along the great circle.
+    /// The view at `time_s`, clamped to the keys' span. The eye moves linearly between keys (so it never
+    /// leaves a corridor that its keys keep to), the viewing direction turns along the great circle.
     [[nodiscard]] View view_at(double time_s, double aspect, ClipDepth clip_depth) const;
 
     /// The view of frame `frame` of `frames`, evenly spaced from the first key to the last.
@@ -51,8 +56,13 @@ Status validate(const CameraPath& path);
 Result<CameraPath> parse_camera_path(std::string_view json, const std::string& source_name);
 Result<CameraPath> load_camera_path(const std::filesystem::path& file);
 
-/// A deterministic walkthrough of a scene that brings none: at eye level through the middle of its bounds and around,
-/// then a climb to an overview. Depends on the bounds alone. `bounds` is not empty; it is relative to `origin`.
+/// A deterministic walkthrough of a scene that brings none: at eye level through the middle of its bounds and
+/// around, then a climb to an overview. Depends on the bounds alone. `bounds` is not empty; it is relative to
+/// `origin`.
 CameraPath walkthrough_of_bounds(const Aabb& bounds, const glm::dvec3& origin);
+
+/// The same walk, lifted to eye level above the scene's ground (its lowest static vertices nearby): on
+/// terrain the bounds alone would lead under the hills. Cost: one pass over the static indices.
+CameraPath walkthrough_of_scene(const Scene& scene);
 
 }  // namespace rhview

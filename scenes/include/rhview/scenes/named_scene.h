@@ -44,8 +44,8 @@ struct SceneAndPath {
 /// Whether `spec` names a procedural scene (before any colon), rather than a file.
 bool is_named_scene(std::string_view spec);
 
-/// Builds `name` or `name:key=value,…`. Errors: unknown name or parameter, a value that is no whole number or out of
-/// its range, a scene larger than the memory that is free (said before allocating).
+/// Builds `name` or `name:key=value,…`. Errors: unknown name or parameter, a value that is no whole number or
+/// out of its range, a scene larger than the memory that is free (said before allocating).
 Result<SceneAndPath> make_named_scene(std::string_view spec);
 
 }  // namespace rhview

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// A scene as the program and the tests hold it: materials, static batches, meshes and the objects that place them.
+/// A scene as the program and the tests hold it: materials, static batches, meshes and the objects that place
+/// them.
 ///
 /// Conventions: positions are `float`, relative to `Scene::origin`; metres; front faces counter-clockwise.
 /// Every vertex is stored once: batches and meshes hold indices into a pool.
@@ -35,8 +36,8 @@ PackedNormal pack_normal(const glm::vec3& unit_normal);
 enum class PackedColour : std::uint32_t {};
 PackedColour pack_colour(const glm::vec3& colour);
 
-/// The vertices of one vertex format. `normals` and `colours` are empty or as long as `positions`; without normals
-/// a surface is shaded flat, without colours it takes its material's.
+/// The vertices of one vertex format. `normals` and `colours` are empty or as long as `positions`; without
+/// normals a surface is shaded flat, without colours it takes its material's.
 struct VertexPool {
     std::vector<glm::vec3> positions;
     std::vector<PackedNormal> normals;

@@ -5,6 +5,7 @@
 /// Collects placed triangles into static batches, one per material and vertex format.
 #pragma once
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <optional>
 #include <span>
@@ -32,10 +33,12 @@ class SceneBuilder {
 
     MaterialId add_material(Material material);
 
-    /// Adds one static object: only the vertices that its triangles use are stored, in order of first use. Triangles
-    /// with a non-finite corner are dropped and counted. A mirroring transform swaps each triangle's last two indices,
-    /// so that the outside stays outside. An object without triangles adds nothing.
-    void add_static(MaterialId material, const MeshPiece& piece, const glm::dmat4& world_from_piece = glm::dmat4(1.0));
+    /// Adds one static object: only the vertices that its triangles use are stored, in order of first use.
+    /// Triangles with a non-finite corner are dropped and counted. A mirroring transform swaps each
+    /// triangle's last two indices, so that the outside stays outside. An object without triangles adds
+    /// nothing.
+    void add_static(MaterialId material, const MeshPiece& piece,
+                    const glm::dmat4& world_from_piece = glm::dmat4(1.0));
 
     /// Adds a mesh for dynamic objects, in its own space; nothing if no finite triangle is left.
     std::optional<MeshId> add_mesh(MaterialId material, const MeshPiece& piece);
@@ -46,8 +49,8 @@ class SceneBuilder {
     /// Room for what is about to be added to the pool and batch of this material and format.
     void reserve(MaterialId material, bool normals, bool colours, std::size_t vertices, std::size_t indices);
 
-    /// The scene, or an error when nothing drawable was added or a pool has more than 2^32 - 1 vertices or indices.
-    /// The builder is empty afterwards.
+    /// The scene, or an error when nothing drawable was added or a pool has more than 2^32 - 1 vertices or
+    /// indices. The builder is empty afterwards.
     Result<Scene> finish(std::string name);
 
   private:
@@ -57,9 +60,10 @@ class SceneBuilder {
                 std::vector<std::uint32_t>& indices, Aabb& bounds);
 
     Scene scene_;
-    std::vector<std::uint32_t> pool_of_format_;   ///< [normals + 2 * colours]
-    std::vector<std::uint32_t> batch_of_;         ///< [material * 4 + format]
-    std::vector<std::uint32_t> new_index_;        ///< scratch: piece vertex -> pool vertex
+    std::vector<std::uint32_t> pool_of_format_;  ///< [normals + 2 * colours]
+    std::vector<std::uint32_t> batch_of_;        ///< [material * 4 + format]
+    std::vector<std::uint32_t> new_index_;  ///< scratch, all unset between calls: piece vertex -> pool vertex
+    std::array<std::size_t, 4> reserved_vertices_{};  ///< by format
     bool too_large_ = false;
 };
 
