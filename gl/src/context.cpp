@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rhview/base/log.h"
+#include "state_guard.h"
 
 namespace rhview::gl {
 namespace {
@@ -92,7 +93,7 @@ DeviceInfo describe_device() {
     info.version = gl_text(GL_VERSION);
     for (const char* software : {"llvmpipe", "softpipe", "swrast", "SWR", "SwiftShader"})
         if (info.renderer.find(software) != std::string::npos) info.software = true;
-    info.clip_control = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
+    info.clip_control = has_clip_control();
     return info;
 }
 

@@ -80,6 +80,7 @@ Result<Executor> Executor::create() {
     if (!program) return program.error();
     Executor executor;
     executor.program_ = std::move(program).value();
+    executor.clip_control_ = has_clip_control();
     const auto location = [&](const char* name) {
         return glGetUniformLocation(executor.program_.name(), name);
     };
@@ -95,9 +96,8 @@ void Executor::begin(const View& view, const DrawOptions& options) const {
     const bool reversed = view.clip_depth == ClipDepth::ReversedZeroToOne;
     glDepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);
     glCullFace(GL_BACK);
-    const bool clip_control = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
-    RHVIEW_ASSERT(clip_control || view.clip_depth == ClipDepth::NegativeOneToOne);
-    if (clip_control)
+    RHVIEW_ASSERT(clip_control_ || view.clip_depth == ClipDepth::NegativeOneToOne);
+    if (clip_control_)
         glClipControl(GL_LOWER_LEFT, view.clip_depth == ClipDepth::NegativeOneToOne ? GL_NEGATIVE_ONE_TO_ONE
                                                                                     : GL_ZERO_TO_ONE);
     const glm::vec3 colour = options.colour.value_or(glm::vec3(0.0f));
@@ -153,7 +153,7 @@ void Executor::draw_ranges(std::span<const DrawRange> ranges, Submission submiss
 
 FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                              const DrawOptions& options) {
-    const StateGuard guard;
+    const StateGuard guard(clip_control_);
     FrameCounters counters;
     begin(view, options);
     set_transform(view, scene.origin(), glm::dmat4(1.0));

@@ -67,6 +67,7 @@ void Lines::add_frustum(const View& view, double reach) {
 Result<LineDrawer> LineDrawer::create() {
     Result<Program> program = link_program(kVertexShader, kFragmentShader);
     if (!program) return program.error();
+    const StateGuard guard(has_clip_control());
     LineDrawer drawer;
     drawer.program_ = std::move(program).value();
     drawer.colour_ = glGetUniformLocation(drawer.program_.name(), "colour");
@@ -79,13 +80,11 @@ Result<LineDrawer> LineDrawer::create() {
     glBindBuffer(GL_ARRAY_BUFFER, drawer.buffer_.name());
     glEnableVertexAttribArray(0);
     glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
-    glBindVertexArray(0);
-    glBindBuffer(GL_ARRAY_BUFFER, 0);
     return drawer;
 }
 
 void LineDrawer::draw(const Lines& lines, const View& view, const glm::vec3& colour) {
-    const StateGuard guard;
+    const StateGuard guard(has_clip_control());
     const glm::dmat4 clip = view.clip_from_eye_relative();
     const glm::dvec3 eye = view.eye();
     std::vector<glm::vec4> vertices;
@@ -103,7 +102,6 @@ void LineDrawer::draw(const Lines& lines, const View& view, const glm::vec3& col
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec4)),
                  vertices.data(), GL_STREAM_DRAW);
     glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(vertices.size()));
-    glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
 }  // namespace rhview::gl

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <string>
 
+#include "state_guard.h"
+
 namespace rhview::gl {
 namespace {
 
@@ -33,6 +35,7 @@ Result<RenderTarget> RenderTarget::create(int width, int height) {
     if (width < 1 || height < 1 || width > limit || height > limit)
         return Error{"a picture of " + size + " is not possible here; each side must be from 1 to " +
                      std::to_string(limit)};
+    const TargetGuard guard;
     RenderTarget target;
     target.width_ = width;
     target.height_ = height;
@@ -62,6 +65,7 @@ void RenderTarget::begin(ClipDepth clip_depth, const glm::vec3& background) {
 
 void RenderTarget::read_depth(std::vector<float>& depths) {
     depths.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    const TargetGuard guard;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
@@ -71,6 +75,7 @@ Picture RenderTarget::read_colour() {
     Picture picture(width_, height_);
     const auto row_bytes = static_cast<std::size_t>(width_) * 3;
     std::vector<std::uint8_t> rows(row_bytes * static_cast<std::size_t>(height_));
+    const TargetGuard guard;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, rows.data());

@@ -8,6 +8,7 @@
 
 #include "attributes.h"
 #include "rhview/gl/context.h"
+#include "state_guard.h"
 
 namespace rhview::gl {
 namespace {
@@ -50,8 +51,6 @@ VertexArray make_vertex_array(const VertexPool& pool, GLuint index_buffer, Buffe
         enable_attribute(kColourAttribute, 4, GL_UNSIGNED_BYTE, GL_TRUE, offset);
         write<PackedColour>(GL_ARRAY_BUFFER, offset, pool.colours);
     }
-    glBindVertexArray(0);
-    glBindBuffer(GL_ARRAY_BUFFER, 0);
     return VertexArray(name);
 }
 
@@ -59,6 +58,7 @@ VertexArray make_vertex_array(const VertexPool& pool, GLuint index_buffer, Buffe
 
 Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const std::uint32_t> static_indices) {
     take_error();
+    const StateGuard guard(has_clip_control());
     SceneBuffers buffers;
     buffers.origin_ = scene.origin;
     glBindVertexArray(0);

@@ -7,11 +7,14 @@
 
 namespace rhview::gl {
 
+/// Whether the current context has glClipControl. Asks the driver: not for every frame.
+bool has_clip_control();
+
 /// Remembers the state that drawing touches and puts it back: program, vertex array, generic attribute
-/// values, culling, front face, depth test, depth function, depth mask and clip control.
+/// values, culling, front face, depth test, depth function, depth mask, clip control and array buffer.
 class StateGuard {
   public:
-    StateGuard();
+    explicit StateGuard(bool clip_control);
     ~StateGuard();
     StateGuard(const StateGuard&) = delete;
     StateGuard& operator=(const StateGuard&) = delete;
@@ -19,6 +22,7 @@ class StateGuard {
   private:
     int program_ = 0;
     int vertex_array_ = 0;
+    int array_buffer_ = 0;
     int cull_face_mode_ = 0;
     int front_face_ = 0;
     int depth_function_ = 0;
@@ -29,6 +33,24 @@ class StateGuard {
     bool depth_test_ = false;
     bool clip_control_ = false;
     float attributes_[2][4] = {};  ///< normal and colour
+};
+
+/// Puts back what making, binding and reading a target changes: framebuffers, renderbuffer, viewport, pack
+/// alignment, depth mask.
+class TargetGuard {
+  public:
+    TargetGuard();
+    ~TargetGuard();
+    TargetGuard(const TargetGuard&) = delete;
+    TargetGuard& operator=(const TargetGuard&) = delete;
+
+  private:
+    int draw_ = 0;
+    int read_ = 0;
+    int renderbuffer_ = 0;
+    int pack_alignment_ = 4;
+    int viewport_[4] = {};
+    std::uint8_t depth_mask_ = 0;
 };
 
 }  // namespace rhview::gl

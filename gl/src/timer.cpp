@@ -10,6 +10,7 @@
 
 #include "program.h"
 #include "rhview/gl/context.h"
+#include "rhview/gl/render_target.h"
 #include "state_guard.h"
 
 namespace rhview::gl {
@@ -78,7 +79,11 @@ Result<TimerCheck> check_gpu_timer() {
     GLuint name = 0;
     glGenVertexArrays(1, &name);
     const VertexArray vertex_array(name);
-    const StateGuard guard;
+    const TargetGuard target_guard;
+    Result<RenderTarget> target = RenderTarget::create(16, 16);
+    if (!target) return target.error();
+    target->begin(ClipDepth::NegativeOneToOne, glm::vec3(0.0f));
+    const StateGuard guard(has_clip_control());
     glUseProgram(program->name());
     glBindVertexArray(name);
     GLsizei vertices = 30'000;

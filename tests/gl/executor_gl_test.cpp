@@ -9,6 +9,7 @@
 
 #include "gl_fixture.h"
 #include "rhview/gl/line_drawer.h"
+#include "rhview/gl/timer.h"
 
 namespace rhview::gl {
 namespace {
@@ -131,6 +132,15 @@ TEST_F(GlTest, state_of_the_application_is_put_back) {
     const Scene scene = two_materials();
     const SceneBuffers buffers = SceneBuffers::upload(scene).value();
     LineDrawer lines = LineDrawer::create().value();
+    const auto integer = [](GLenum name) {
+        GLint value = -1;
+        glGetIntegerv(name, &value);
+        return static_cast<GLenum>(value);
+    };
+    GLuint application_buffer = 0;
+    glGenBuffers(1, &application_buffer);
+    glBindBuffer(GL_ARRAY_BUFFER, application_buffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 2);
     glDisable(GL_DEPTH_TEST);
     glDepthFunc(GL_NOTEQUAL);
     glEnable(GL_CULL_FACE);
@@ -139,17 +149,19 @@ TEST_F(GlTest, state_of_the_application_is_put_back) {
     glVertexAttrib4f(1, 1, 2, 3, 4);
     glVertexAttrib4f(2, 5, 6, 7, 8);
     target_->begin(ClipDepth::ZeroToOne, glm::vec3(0));
+    const GLenum framebuffer = integer(GL_DRAW_FRAMEBUFFER_BINDING);
     glDepthMask(GL_FALSE);
     glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
     executor_->draw(whole_of(scene), buffers, view_at({0, 0, 0}, {0, 0, -1}, ClipDepth::ZeroToOne));
     Lines box;
     box.add_box({glm::vec3(-1), glm::vec3(1)}, glm::dvec3(0));
     lines.draw(box, view_at({0, 0, 5}, {0, 0, -1}), glm::vec3(1));
-    const auto integer = [](GLenum name) {
-        GLint value = -1;
-        glGetIntegerv(name, &value);
-        return static_cast<GLenum>(value);
-    };
+    EXPECT_TRUE(SceneBuffers::upload(scene).ok());
+    EXPECT_EQ(RenderTarget::create(8, 8).value().read_colour().width(), 8);
+    EXPECT_TRUE(check_gpu_timer().ok());
+    EXPECT_EQ(integer(GL_ARRAY_BUFFER_BINDING), application_buffer);
+    EXPECT_EQ(integer(GL_DRAW_FRAMEBUFFER_BINDING), framebuffer);
+    EXPECT_EQ(integer(GL_PACK_ALIGNMENT), 2u);
     EXPECT_EQ(integer(GL_CURRENT_PROGRAM), 0u);
     EXPECT_EQ(integer(GL_VERTEX_ARRAY_BINDING), 0u);
     EXPECT_EQ(integer(GL_DEPTH_FUNC), static_cast<GLenum>(GL_NOTEQUAL));
@@ -165,6 +177,7 @@ TEST_F(GlTest, state_of_the_application_is_put_back) {
     glGetVertexAttribfv(2, GL_CURRENT_VERTEX_ATTRIB, colour);
     EXPECT_EQ(normal[0], 1.0f);
     EXPECT_EQ(colour[3], 8.0f);
+    glDeleteBuffers(1, &application_buffer);
     glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
 }
 

@@ -61,6 +61,7 @@ class Executor {
 
     Program program_;
     Uniforms uniforms_;
+    bool clip_control_ = false;
     std::vector<std::int32_t> counts_;  ///< scratch of a multi-draw
     std::vector<const void*> offsets_;
 };

@@ -24,8 +24,8 @@ class RenderTarget {
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
-    /// Binds the target, sets the viewport to all of it, clears colour and depth (to the far end of
-    /// `clip_depth`).
+    /// Binds the target for drawing, sets the viewport to all of it, turns depth writes on, clears colour and
+    /// depth (to the far end of `clip_depth`).
     void begin(ClipDepth clip_depth, const glm::vec3& background);
 
     /// Depths, row after row from the bottom; waits for the drawing.
