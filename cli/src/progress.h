@@ -19,9 +19,12 @@ class Progress {
     void say(const std::string& what);
     /// A bar: `done` of `total`.
     void show(const std::string& what, int done, int total);
+    /// Leaves an empty line, ready for other output.
+    void clear();
 
   private:
     bool terminal_;
+    bool shown_ = false;
     int last_percent_ = -1;
 };
 

@@ -279,7 +279,7 @@ Result<int> run_walk(const WalkOptions& options) {
         if (Status status = walk.run(*size, report); !status) return status.error();
     }
     if (Status status = outputs.commit(report); !status) return status.error();
-    progress.say("");
+    progress.clear();
     fmt::print("{}", to_table(report));
     return report.missing_pixels() > 0 ? kCheckFailed : kDone;
 }
