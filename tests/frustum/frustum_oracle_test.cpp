@@ -9,27 +9,12 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <random>
 
 #include "rhview/frustum/frustum.h"
+#include "uniform.h"
 
 namespace rhview {
 namespace {
-
-class Uniform {
-  public:
-    explicit Uniform(std::uint32_t seed) : engine_(seed) {}
-    double operator()(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-    }
-    double log(double low, double high) { return std::exp2((*this)(std::log2(low), std::log2(high))); }
-    glm::dvec3 point(double reach) {
-        return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)};
-    }
-
-  private:
-    std::mt19937 engine_;
-};
 
 /// The vertex shader of `gl`, in float: eye subtracted as a pair, then the camera-relative clip matrix.
 struct FloatRenderer {

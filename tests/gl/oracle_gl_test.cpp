@@ -5,27 +5,16 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
-#include <random>
 
 #include "gl_fixture.h"
 #include "random_geometry.h"
 #include "rhview/baselines/draw_everything.h"
 #include "rhview/baselines/frustum_objects.h"
 #include "rhview/baselines/octree_leaves.h"
+#include "uniform.h"
 
 namespace rhview::gl {
 namespace {
-
-class Uniform {
-  public:
-    explicit Uniform(std::uint32_t seed) : engine_(seed) {}
-    double operator()(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-    }
-
-  private:
-    std::mt19937 engine_;
-};
 
 /// Scattered triangles in three materials, one of them two-sided, and placed objects: turned, mirrored,
 /// squashed.
