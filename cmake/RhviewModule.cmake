@@ -12,6 +12,7 @@ include_guard(GLOBAL)
 set(RHVIEW_FLOOR_base 0)
 set(RHVIEW_FLOOR_frustum 1)
 set(RHVIEW_FLOOR_scenes 1)
+set(RHVIEW_FLOOR_timing_model 1)
 set(RHVIEW_FLOOR_rhoctree 2)
 set(RHVIEW_FLOOR_pipeline 3)
 set(RHVIEW_FLOOR_gl 4)
@@ -19,7 +20,7 @@ set(RHVIEW_FLOOR_baselines 4)
 
 # What an engine takes: needs GLM alone. rhview::rhview links those of them that are built; the package's default
 # component holds them.
-set(RHVIEW_CORE_MODULES base frustum rhoctree pipeline)
+set(RHVIEW_CORE_MODULES base frustum timing_model rhoctree pipeline)
 
 # Flags of our own targets only: consumers see none of them.
 function(rhview_private_options target)
@@ -32,7 +33,9 @@ function(rhview_private_options target)
       # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105329).
       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
     if(RHVIEW_SANITIZE)
-      target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+      # With sanitizers GCC takes the standard library's own variables for uninitialised.
+      target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all
+        -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
       target_link_options(${target} PUBLIC -fsanitize=address,undefined)
     endif()
   endif()

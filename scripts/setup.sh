@@ -14,6 +14,8 @@ packages=(
     g++ cmake ninja-build git python3 pkg-config clang-format
     # the core
     libglm-dev
+    # the timing model, to build it only
+    libeigen3-dev
     # gl: entry points, contexts without a window, a software renderer, PNG files
     libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libstb-dev
     # scenes

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// What was submitted in one frame, and how long that took.
+#pragma once
+
+namespace rhview {
+
+/// Counts of one frame, as the executor makes the calls; finite and not negative. `fragments` is the number
+/// of fragments shaded, measured or estimated by the caller; 0 where nobody counts them.
+struct Work {
+    double indices = 0.0;     ///< V, three per triangle
+    double draw_calls = 0.0;  ///< N, a multi-draw is one
+    double sub_draws = 0.0;   ///< index ranges; equals `draw_calls` for plain draws
+    double queries = 0.0;
+    double material_changes = 0.0;
+    double fragments = 0.0;
+};
+
+struct Sample {
+    Work work;
+    double measured_ns = 0.0;  ///< positive and finite
+};
+
+}  // namespace rhview
