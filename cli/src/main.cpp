@@ -43,6 +43,12 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->capture_default_str();
     walk->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
         ->type_name("FILE");
+    walk->add_option("--profile", options.profile,
+                     "Timing constants (rhview.profile/1) to predict each frame with")
+        ->type_name("FILE");
+    walk->add_option("--set", options.set,
+                     "Timing constants in ns: c0, c1 per index, c3 per draw call, query")
+        ->type_name("c1=…,c3=…");
     walk->add_option("--frames", options.frames, "Frames to measure")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();

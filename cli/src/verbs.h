@@ -28,6 +28,8 @@ struct WalkOptions {
     std::string submission = "plain";
     std::string size = "1280x720";
     std::optional<std::filesystem::path> path;
+    std::optional<std::filesystem::path> profile;
+    std::string set;
     int frames = 120;
     int warmup = 8;
     std::uint32_t leaf = 4096;

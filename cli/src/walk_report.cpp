@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "statistics.h"
@@ -48,6 +49,14 @@ Json missing_pixels_json(const WalkReport& report) {
             {"checked_frames", report.checked_frames()}};
 }
 
+/// |predicted - measured| / measured.
+Json prediction_error_json(const WalkReport& report) {
+    const Statistics s = summarise(column(report, [](const FrameRecord& f) {
+        return std::abs(f.predicted_ms.value_or(0.0) - f.frame_ms) / f.frame_ms;
+    }));
+    return {{"median", s.median}, {"p95", s.p95}};
+}
+
 Json summary_json(const WalkReport& report) {
     const bool has_gpu = !report.frames.empty() && report.frames.front().gpu_ms.has_value();
     const bool has_objects = report.scene.dynamic_objects > 0;
@@ -62,8 +71,11 @@ Json summary_json(const WalkReport& report) {
     summary["gpu_ms"] = has_gpu
                             ? statistics(report, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); })
                             : Json(nullptr);
-    summary["predicted_ms"] = nullptr;
-    summary["prediction_error"] = nullptr;
+    const bool predicted = report.profile.source.has_value();
+    summary["predicted_ms"] =
+        predicted ? statistics(report, [](const FrameRecord& f) { return f.predicted_ms.value_or(0.0); })
+                  : Json(nullptr);
+    summary["prediction_error"] = predicted ? prediction_error_json(report) : Json(nullptr);
     summary["visible_objects"] =
         has_objects ? statistics(report, [](const FrameRecord& f) { return f.visible_objects; })
                     : Json(nullptr);
@@ -104,11 +116,11 @@ std::string to_json(const WalkReport& report) {
     json["device"] = {{"renderer", report.device.renderer},
                       {"version", report.device.version},
                       {"timer", report.device.timer}};
-    json["profile"] = {{"c0_ns", nullptr},
-                       {"c1_ns", nullptr},
-                       {"c3_ns", nullptr},
-                       {"query_ns", nullptr},
-                       {"source", nullptr}};
+    json["profile"] = {{"c0_ns", or_null(report.profile.c0_ns)},
+                       {"c1_ns", or_null(report.profile.c1_ns)},
+                       {"c3_ns", or_null(report.profile.c3_ns)},
+                       {"query_ns", or_null(report.profile.query_ns)},
+                       {"source", or_null(report.profile.source)}};
     json["method"] = report.method;
     json["mode"] = report.mode;
     json["submission"] = report.submission;
@@ -130,7 +142,7 @@ std::string to_json(const WalkReport& report) {
                                      {"cull_ms", f.cull_ms},
                                      {"frame_ms", f.frame_ms},
                                      {"gpu_ms", or_null(f.gpu_ms)},
-                                     {"predicted_ms", nullptr},
+                                     {"predicted_ms", or_null(f.predicted_ms)},
                                      {"missing_pixels", or_null(f.missing_pixels)}});
     // A file name need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -174,6 +186,8 @@ std::string to_table(const WalkReport& report) {
         row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
     row("cull ms", 3, [](const FrameRecord& f) { return f.cull_ms; });
     row("frame ms", 2, [](const FrameRecord& f) { return f.frame_ms; });
+    if (report.profile.source)
+        row("predicted ms", 2, [](const FrameRecord& f) { return f.predicted_ms.value_or(0.0); });
     if (!report.frames.empty() && report.frames.front().gpu_ms)
         row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
     if (const int checked = report.checked_frames(); checked > 0)

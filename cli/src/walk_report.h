@@ -21,6 +21,7 @@ struct FrameRecord {
     double cull_ms = 0.0;
     double frame_ms = 0.0;
     std::optional<double> gpu_ms;
+    std::optional<double> predicted_ms;
     std::optional<std::uint64_t> missing_pixels;
 };
 
@@ -46,6 +47,13 @@ struct WalkReport {
         std::uint64_t index_bytes = 0;
         std::uint64_t vertex_bytes = 0;
     } build;
+    struct {
+        std::optional<double> c0_ns;
+        std::optional<double> c1_ns;
+        std::optional<double> c3_ns;
+        std::optional<double> query_ns;
+        std::optional<std::string> source;  ///< "file" or "set"
+    } profile;
     std::string method;
     std::string mode;
     std::string submission;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "constants.h"
 #include "frame_pictures.h"
 #include "method.h"
 #include "output_file.h"
@@ -75,12 +76,21 @@ struct Outputs {
     }
 };
 
+Work work_of(const gl::FrameCounters& counters) {
+    Work work;
+    work.indices = static_cast<double>(counters.indices);
+    work.draw_calls = static_cast<double>(counters.draw_calls);
+    work.sub_draws = static_cast<double>(counters.sub_draws);
+    return work;
+}
+
 /// Everything a walk needs on the device, and the walk itself.
 class Walk {
   public:
-    Walk(const WalkOptions& options, const SceneAndPath& loaded, PreparedMethod& method,
-         const gl::DeviceInfo& device)
+    Walk(const WalkOptions& options, const std::optional<UserConstants>& constants,
+         const SceneAndPath& loaded, PreparedMethod& method, const gl::DeviceInfo& device)
         : options_(options),
+          constants_(constants),
           scene_(loaded.scene),
           path_(loaded.path),
           method_(method),
@@ -170,6 +180,7 @@ class Walk {
         record.indices = counters.indices;
         record.nodes_visited = plan_.nodes_visited;
         record.visible_objects = plan_.objects.size();
+        if (constants_) record.predicted_ms = 1e-6 * constants_->profile.predict_ns(work_of(counters));
         return record;
     }
 
@@ -202,6 +213,7 @@ class Walk {
     }
 
     const WalkOptions& options_;
+    const std::optional<UserConstants>& constants_;
     const Scene& scene_;
     const CameraPath& path_;
     PreparedMethod& method_;
@@ -260,6 +272,8 @@ Result<int> run_walk(const WalkOptions& options) {
     if (Status status = check_options(options); !status) return status.error();
     const Result<PictureSize> size = parse_size(options.size);
     if (!size) return size.error();
+    const Result<std::optional<UserConstants>> constants = read_constants(options.profile, options.set);
+    if (!constants) return constants.error();
     Outputs outputs;
     if (Status status = outputs.open(options); !status) return status.error();
 
@@ -274,8 +288,11 @@ Result<int> run_walk(const WalkOptions& options) {
     if (!method) return method.error();
 
     WalkReport report = describe(options, loaded->scene, *method, context->device(), *size);
+    if (const std::optional<UserConstants>& known = *constants)
+        report.profile = {known->profile.c0_ns, known->profile.c1_ns, known->profile.c3_ns,
+                          known->profile.query_ns, known->source};
     {
-        Walk walk(options, *loaded, *method, context->device());
+        Walk walk(options, *constants, *loaded, *method, context->device());
         if (Status status = walk.run(*size, report); !status) return status.error();
     }
     if (Status status = outputs.commit(report); !status) return status.error();

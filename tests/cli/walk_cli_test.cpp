@@ -103,6 +103,29 @@ TEST_F(Walk, multi_draw_makes_one_call_per_batch) {
     EXPECT_EQ(multi["indices"], plain["indices"]);
 }
 
+TEST_F(Walk, frames_are_predicted_with_the_constants_that_are_named) {
+    const nlohmann::json walk = walk_json(kSmallTown + " --set c1=0.25,c3=2000");
+    EXPECT_EQ(walk["profile"]["source"], "set");
+    EXPECT_EQ(walk["profile"]["c3_ns"], 2000);
+    EXPECT_TRUE(walk["profile"]["query_ns"].is_null());
+    for (const nlohmann::json& frame : walk["per_frame"]) {
+        const double expected_ns =
+            0.25 * frame["indices"].get<double>() + 2000.0 * frame["draw_calls"].get<double>();
+        EXPECT_NEAR(frame["predicted_ms"].get<double>(), 1e-6 * expected_ns, 1e-9);
+    }
+    const nlohmann::json& error = walk["summary"]["prediction_error"];
+    EXPECT_GT(error["median"], 0.0);
+    EXPECT_GE(error["p95"], error["median"]);
+
+    const std::string profile = (std::filesystem::path(RHVIEW_PROFILES_DIR) / "seed-table1.json").string();
+    const nlohmann::json seed = walk_json(kSmallTown + " --profile '" + profile + "'");
+    EXPECT_EQ(seed["profile"]["source"], "file");
+    EXPECT_EQ(seed["profile"]["c1_ns"], 0.318);
+    const nlohmann::json both = walk_json(kSmallTown + " --set c3=9 --profile '" + profile + "'");
+    EXPECT_EQ(both["profile"]["c1_ns"], 0.318);
+    EXPECT_EQ(both["profile"]["c3_ns"], 9);
+}
+
 TEST_F(Walk, dynamic_objects_are_counted_and_culled) {
     const nlohmann::json walk =
         walk_json("farm:instances=30,mesh=2000 --frames 8 --size 160x90 --warmup 0 --check");
