@@ -61,6 +61,14 @@ def row(scene, method, leaf, walks):
     }
 
 
+def write(output, rows):
+    output.parent.mkdir(parents=True, exist_ok=True)
+    with output.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, FIELDS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("scenes", nargs="+", help="named scenes or files")
@@ -80,13 +88,7 @@ def main():
                 walks[run].append(walk(options.program, scene, *run, options, 5 if repeat == 0 else 0))
                 print(f"{scene} {run[0]} {run[1] or ''} repeat {repeat + 1}", file=sys.stderr)
         rows += [row(scene, method, leaf, walks[method, leaf]) for method, leaf in RUNS]
-
-    output = pathlib.Path(options.output)
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with output.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, FIELDS)
-        writer.writeheader()
-        writer.writerows(rows)
+        write(pathlib.Path(options.output), rows)
 
 
 if __name__ == "__main__":

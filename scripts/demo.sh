@@ -8,6 +8,19 @@
 
 set -euo pipefail
 
+for argument in "$@"; do
+    case "$argument" in
+        -h | --help)
+            sed -n 's/^# usage: /usage: /p' "$0"
+            exit 0
+            ;;
+        --images | --images=* | --json | --json=*)
+            echo "demo: the demo decides where its pictures and figures go; run rhview walk for your own" >&2
+            exit 2
+            ;;
+    esac
+done
+
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="$root/build/demo"
 images="$build/images"

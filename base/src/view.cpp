@@ -27,6 +27,15 @@ glm::dmat4 convert_depth(glm::dmat4 clip, ClipDepth clip_depth) {
     return clip;
 }
 
+/// Squared volume that three rows span, each scaled to unit length; NaN when one is zero.
+double gram_determinant(glm::dvec4 a, glm::dvec4 b, glm::dvec4 c) {
+    a = glm::normalize(a);
+    b = glm::normalize(b);
+    c = glm::normalize(c);
+    const double ab = glm::dot(a, b), ac = glm::dot(a, c), bc = glm::dot(b, c);
+    return 1.0 + 2.0 * ab * ac * bc - ab * ab - ac * ac - bc * bc;
+}
+
 }  // namespace
 
 glm::dvec3 View::eye() const {
@@ -47,18 +56,19 @@ Status validate(const View& view) {
     const double volume = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
     if (!(std::abs(glm::determinant(axes)) > 1e-9 * volume))
         return Error{"the camera is singular (is it looking along its own up vector?)"};
-    // Rows x, y and w of the projection must be independent: otherwise two side planes of the frustum
-    // coincide.
+    // Rows x, y and w of the projection must be independent: otherwise side planes of the frustum coincide.
     const glm::dmat4 rows = glm::transpose(view.clip_from_camera);
-    const auto is_zero = [](const glm::dvec4& row) { return glm::dot(row, row) == 0.0; };
-    if (is_zero(rows[0]) || is_zero(rows[1]) || is_zero(rows[3]) || !(view.eye() == view.eye()))
+    if (!(gram_determinant(rows[0], rows[1], rows[3]) > 1e-18))
         return Error{"the camera's projection is singular (check field of view, width and height)"};
+    if (!(view.eye() == view.eye())) return Error{"the camera has no finite position"};
     return success();
 }
 
 glm::dmat4 look_along(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up) {
     const glm::dvec3 f = glm::normalize(forward);
-    const glm::dvec3 right = glm::normalize(glm::cross(f, up));
+    const glm::dvec3 side = glm::cross(f, glm::normalize(up));
+    // Along `up` any direction would be as good: zero axes, which `validate` refuses by name.
+    const glm::dvec3 right = glm::length(side) > 1e-9 ? glm::normalize(side) : glm::dvec3(0.0);
     const glm::dvec3 u = glm::cross(right, f);
     glm::dmat4 view(1.0);
     for (int column = 0; column < 3; ++column) {

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <exception>
 
 #include "method.h"
@@ -91,7 +92,7 @@ int run(int argc, char** argv) {
     if (argc > 1 && argv[1][0] != '-' && std::ranges::find(kVerbs, std::string_view(argv[1])) == kVerbs.end())
         return fail(fmt::format("unknown verb '{}'; the verbs are {}", argv[1], fmt::join(kVerbs, ", ")));
 
-    CLI::App app("rhview: the cheapest list of draw calls that shows every visible pixel", "rhview");
+    CLI::App app("rhview: few draw calls that show every visible pixel", "rhview");
     app.require_subcommand(1);
     app.set_version_flag("--version", kVersion);
     const CLI::App* scenes =
@@ -108,11 +109,16 @@ int run(int argc, char** argv) {
         if (argc < 2)
             return fail(fmt::format("which verb? The verbs are {}; rhview --help tells more",
                                     fmt::join(kVerbs, ", ")));
-        return fail(one_sentence(error.what()) + "; see rhview " + argv[1] + " --help");
+        const bool verb = std::ranges::find(kVerbs, std::string_view(argv[1])) != kVerbs.end();
+        if (!verb)
+            return fail(fmt::format("unknown option {}; the verbs are {}", argv[1], fmt::join(kVerbs, ", ")));
+        return fail(fmt::format("{}; see rhview {} --help", one_sentence(error.what()), argv[1]));
     }
-    const Result<int> code = app.got_subcommand(scenes->get_name()) ? run_scenes()
-                             : app.got_subcommand("info")           ? run_info(info)
-                                                                    : run_walk(walk);
+    Result<int> code = app.got_subcommand(scenes->get_name()) ? run_scenes()
+                       : app.got_subcommand("info")           ? run_info(info)
+                                                              : run_walk(walk);
+    if (code && std::fflush(stdout) != 0)
+        code = Error{"standard output can't be written to; is the disk full?"};
     return code ? *code : fail(code.error().message);
 }
 

@@ -33,6 +33,7 @@ struct WalkReport {
         std::uint64_t dynamic_objects = 0;
         std::uint64_t dynamic_triangles = 0;
         std::uint64_t materials = 0;
+        std::uint64_t batches = 0;
     } scene;
     struct {
         std::string renderer;

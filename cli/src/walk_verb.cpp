@@ -64,6 +64,8 @@ struct Outputs {
             output.emplace(std::move(opened).value());
             return success();
         };
+        if (options.json && options.csv && resolved(*options.json) == resolved(*options.csv))
+            return Error{options.csv->string() + ": --json and --csv name the same file; name two"};
         if (Status status = open_one(options.json, json); !status) return status;
         if (Status status = open_one(options.csv, csv); !status) return status;
         return options.images ? prepare_folder(*options.images) : success();
@@ -235,8 +237,12 @@ class Walk {
 WalkReport describe(const WalkOptions& options, const Scene& scene, const PreparedMethod& method,
                     const gl::DeviceInfo& device, PictureSize size) {
     WalkReport report;
-    report.scene = {scene.name, scene.static_triangles(), scene.dynamic_objects.size(),
-                    scene.dynamic_triangles(), scene.materials.size()};
+    report.scene = {scene.name,
+                    scene.static_triangles(),
+                    scene.dynamic_objects.size(),
+                    scene.dynamic_triangles(),
+                    scene.materials.size(),
+                    scene.batches.size()};
     report.device = {device.renderer, device.version, "wall"};
     report.build.ms = method.build_ms;
     if (method.octree != nullptr) {

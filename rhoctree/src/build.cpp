@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "morton_sort.h"
 #include "rhview/rhoctree/rhoctree.h"
@@ -14,7 +15,7 @@ namespace rhview {
 /// contiguous.
 class OctreeBuilder {
   public:
-    OctreeBuilder(std::span<const TriangleBatch> batches, std::span<const MortonTriangle> triangles,
+    OctreeBuilder(std::span<const TriangleBatch> batches, std::span<MortonTriangle> triangles,
                   const OctreeOptions& options)
         : batches_(batches), triangles_(triangles), max_leaf_(std::max(options.max_leaf_triangles, 1u)) {
         std::size_t first = 0;
@@ -68,6 +69,10 @@ class OctreeBuilder {
     }
 
     void make_leaf(std::uint32_t id, std::size_t begin, std::size_t end) {
+        // A leaf is drawn whole, so its order is free: the source's keeps neighbours that share vertices
+        // together.
+        std::ranges::sort(triangles_.subspan(begin, end - begin), {},
+                          [](const MortonTriangle& t) { return std::pair(t.batch, t.triangle); });
         Aabb bounds;
         for (std::size_t i = begin; i < end; ++i) {
             const MortonTriangle& t = triangles_[i];
@@ -118,7 +123,7 @@ class OctreeBuilder {
     }
 
     std::span<const TriangleBatch> batches_;
-    std::span<const MortonTriangle> triangles_;
+    std::span<MortonTriangle> triangles_;
     std::size_t max_leaf_;
     RhOctree octree_;
     std::vector<std::uint32_t> next_index_;     ///< per batch: where its next triangle goes
@@ -127,7 +132,7 @@ class OctreeBuilder {
 };
 
 Result<RhOctree> build_octree(std::span<const TriangleBatch> batches, const OctreeOptions& options) {
-    const Result<std::vector<MortonTriangle>> triangles = sort_by_morton_code(batches);
+    Result<std::vector<MortonTriangle>> triangles = sort_by_morton_code(batches);
     if (!triangles) return triangles.error();
     return OctreeBuilder(batches, *triangles, options).build();
 }

@@ -26,14 +26,14 @@ void draw_indexed(std::uint32_t first, std::uint32_t count) {
     ++draw_calls;
 }
 
-/// Pairs of triangular houses on the corners of a square of 200 m.
+/// 10,000 triangular houses on a square of a kilometre.
 void build_houses(std::vector<glm::vec3>& positions, std::vector<std::uint32_t>& indices) {
-    for (const float x : {-100.0f, -80.0f, 80.0f, 100.0f}) {
-        for (const float z : {-100.0f, 100.0f}) {
-            for (const glm::vec3 offset : {glm::vec3(-5, 0, 0), glm::vec3(5, 0, 0), glm::vec3(0, 9, 0)}) {
-                indices.push_back(static_cast<std::uint32_t>(positions.size()));
-                positions.push_back(glm::vec3(x, 0, z) + offset);
-            }
+    for (int i = 0; i < 10'000; ++i) {
+        const glm::vec3 place(10.0f * static_cast<float>(i % 100) - 495.0f, 0,
+                              10.0f * static_cast<float>(i / 100) - 495.0f);
+        for (const glm::vec3 corner : {glm::vec3(-4, 0, 0), glm::vec3(4, 0, 0), glm::vec3(0, 9, 0)}) {
+            indices.push_back(static_cast<std::uint32_t>(positions.size()));
+            positions.push_back(place + corner);
         }
     }
 }
@@ -46,10 +46,9 @@ int main() {
     build_houses(positions, indices);
 
     // [snippet]
-    // Once: your triangles, one batch per material. Vertices stay where they are, indices come back in a new
-    // order.
+    // Once: your triangles, one batch per material. Vertices stay; indices come back in a new order.
     const rhview::TriangleBatch batch{rhview::MaterialId{0}, positions, indices};
-    const auto octree = rhview::build_octree({&batch, 1}, {.max_leaf_triangles = 1});
+    const auto octree = rhview::build_octree({&batch, 1});
     if (!octree) return std::puts(octree.error().message.c_str()), 1;
     upload_index_buffer(octree->indices());
 

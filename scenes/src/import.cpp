@@ -29,6 +29,8 @@ std::string lower_case_extension(const std::filesystem::path& file) {
 }
 
 Result<Scene> dispatch(const std::filesystem::path& file, const std::string& name) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) return Error{name + ": is a folder; name a file in it"};
     const std::string extension = lower_case_extension(file);
     const bool gltf = extension == ".glb" || extension == ".gltf";
     if (!gltf && extension != ".obj" && extension != ".ply") {

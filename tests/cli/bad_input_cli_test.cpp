@@ -35,6 +35,7 @@ TEST_F(BadInput, unknown_verbs_options_methods_and_modes) {
     refuse("wlak town", {"wlak", "scenes, info, walk"}, 0);
     refuse("walk town --colour red", {"--colour", "rhview walk --help"}, 0);
     refuse("walk", {"SCENE"}, 0);
+    refuse("--verison", {"--verison", "scenes, info, walk"}, 0);
     refuse("walk town --method fastest", {"--method fastest", "none, frustum, octree, rhview-seed, rhview"},
            0);
     refuse("walk town --mode guess", {"--mode guess"}, 0);
@@ -60,7 +61,8 @@ TEST_F(BadInput, scenes_that_are_not_there) {
     refuse("walk town:materials=85", {"materials", "84"}, 0);
     refuse("walk missing.glb", {"missing.glb"}, 0);
     refuse("info missing.obj", {"missing.obj"}, 0);
-    refuse("info .", {"."}, 0);
+    refuse("info .", {"is a folder"}, 0);
+    refuse("walk /dev", {"/dev: is a folder"}, 0);
 }
 
 TEST_F(BadInput, broken_files) {
@@ -132,6 +134,28 @@ TEST_F(BadInput, unwritable_outputs_are_told_before_the_walk) {
     write_file(folder_ / "file", "");
     refuse("walk town --images file", {"file"}, 1);
     refuse("walk town --images /proc/pictures", {"/proc/pictures"}, 1);
+}
+
+TEST_F(BadInput, outputs_spare_what_is_not_a_plain_file_of_theirs) {
+    refuse("walk soup --json a.out --csv ./a.out", {"--json and --csv name the same file"}, 0);
+    refuse("info soup --json ''", {"needs a name"}, 0);
+    // Through a link to its target, and no temporary file stays.
+    write_file(folder_ / "target", "old");
+    std::filesystem::create_symlink("target", folder_ / "link");
+    ASSERT_EQ(run("info soup --json link").code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "link"));
+    EXPECT_EQ(nlohmann::json::parse(read_file(folder_ / "target"))["schema"], "rhview.info/1");
+    EXPECT_EQ(files_in_folder(), 2u);
+    // A device is written to, not replaced; a full one is told.
+    const Outcome full = run("info soup --json /dev/full");
+    EXPECT_EQ(full.code, 2);
+    EXPECT_NE(full.err.find("/dev/full"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_F(BadInput, full_standard_output_is_told) {
+    const int status = std::system("'" RHVIEW_PROGRAM "' scenes >/dev/full 2>/dev/null");
+    EXPECT_EQ(WEXITSTATUS(status), 2);
 }
 
 TEST_F(BadInput, machine_without_a_device_or_with_an_old_one) {

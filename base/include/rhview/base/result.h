@@ -33,6 +33,7 @@ class [[nodiscard]] Result {
     [[nodiscard]] T&& value() && { return std::move(*checked_value()); }
     T& operator*() & { return value(); }
     const T& operator*() const& { return value(); }
+    T&& operator*() && { return std::move(*this).value(); }
     T* operator->() { return checked_value(); }
     const T* operator->() const { return const_cast<Result*>(this)->checked_value(); }
 

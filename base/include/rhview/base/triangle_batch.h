@@ -15,7 +15,7 @@ namespace rhview {
 
 /// Triangles that one material draws from one vertex buffer. The engine owns both arrays and keeps them while
 /// they are read. `indices.size()` is a multiple of three and every index is below `positions.size()`.
-/// Several batches may share one `positions` array.
+/// Several batches may share one `positions` array; index values are into the batch's own.
 struct TriangleBatch {
     MaterialId material{};
     std::span<const glm::vec3> positions;    ///< scene space, metres

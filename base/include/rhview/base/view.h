@@ -31,7 +31,8 @@ struct View {
 };
 
 /// Fails if a number is not finite, `camera_from_world` is not affine and invertible, or the projection is
-/// singular in x, y or w. A zero depth row is allowed: an infinite far plane has one.
+/// singular in x, y and w (their rows depend on one another). A zero depth row is allowed: an infinite far
+/// plane has one.
 Status validate(const View& view);
 
 /// A view at `eye` that looks along `forward`. `forward` and `up` need not be unit or orthogonal, but must

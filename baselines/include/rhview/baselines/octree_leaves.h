@@ -13,6 +13,7 @@ class OctreeLeaves final : public FramePlanner {
   public:
     /// `octree` outlives the planner.
     explicit OctreeLeaves(const RhOctree& octree) : octree_(octree) {}
+    explicit OctreeLeaves(RhOctree&&) = delete;
 
     void plan(const FrameInput& input, FramePlan& plan) override;
     [[nodiscard]] Aabb bounds_of(std::uint32_t chosen) const override;

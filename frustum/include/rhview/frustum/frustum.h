@@ -48,8 +48,9 @@ Frustum make_frustum(const View& view, const glm::dvec3& scene_origin = glm::dve
 
 /// Classifies `box` against the planes set in `mask`.
 /// On return `mask` keeps only the planes that the box may cross, so a caller that descends a hierarchy
-/// passes it on; after `Outside` it means nothing. An empty box and one with NaN are `Intersecting`. Cost:
-/// two dot products per plane at most; no allocation. Thread-safe. Source: Assarsson & Möller 2000,
+/// passes it on; after `Outside` it means nothing. A box with NaN and the
+/// default (infinite) empty box are `Intersecting`; other boxes with min > max get any answer.
+/// Cost: three dot products per plane at most; no allocation. Thread-safe. Source: Assarsson & Möller 2000,
 /// section 3.
 Containment classify(const Frustum& frustum, const Aabb& box, PlaneMask& mask);
 

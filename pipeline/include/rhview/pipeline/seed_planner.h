@@ -16,6 +16,7 @@ class SeedPlanner final : public FramePlanner {
   public:
     /// `octree` outlives the planner.
     explicit SeedPlanner(const RhOctree& octree) : octree_(octree) {}
+    explicit SeedPlanner(RhOctree&&) = delete;
 
     void plan(const FrameInput& input, FramePlan& plan) override;
     [[nodiscard]] Aabb bounds_of(std::uint32_t chosen) const override;

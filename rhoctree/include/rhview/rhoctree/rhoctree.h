@@ -22,7 +22,8 @@
 namespace rhview {
 
 struct OctreeOptions {
-    /// A node with more triangles is split, unless all their centroids share one cell of the finest grid.
+    /// A node with more triangles is split, unless all their centroids share one cell of the finest grid. 0
+    /// counts as 1.
     std::uint32_t max_leaf_triangles = 4096;
 };
 
@@ -53,7 +54,8 @@ class RhOctree {
     [[nodiscard]] std::span<const DrawRange> ranges(NodeId id) const {
         return std::span(ranges_).subspan(node(id).first_range, node(id).range_count);
     }
-    /// The index buffer to draw from, in base order: batch after batch, leaves in depth-first order. A
+    /// The index buffer to draw from, in base order: batch after batch, leaves in depth-first order, a leaf's
+    /// triangles in source order. Index values are the batch's own, into its `positions`. A
     /// triangle's three indices keep their order, so that depths agree to the last bit with the source's.
     [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
     [[nodiscard]] std::size_t batch_count() const { return batch_count_; }
