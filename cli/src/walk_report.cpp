@@ -191,7 +191,7 @@ std::string to_table(const WalkReport& report) {
     if (!report.frames.empty() && report.frames.front().gpu_ms)
         row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
     table +=
-        fmt::format("\n  drawing everything would take {} draw calls and {} indices; plan hash {:016x}\n",
+        fmt::format("\n  everything: {} draw calls, {} indices; plan hash {:016x}\n",
                     report.scene.batches + report.scene.dynamic_objects,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
     if (const int checked = report.checked_frames(); checked > 0)
