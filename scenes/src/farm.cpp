@@ -278,7 +278,7 @@ SceneSize farm_size(ParameterValues values) {
 }
 
 constexpr std::array<SceneParameter, 3> kParameters{{
-    {"instances", 310, 1, 100000, "moving beasts, all of one mesh"},
+    {"instances", 310, 1, 100000, "placed beasts, all of one mesh"},
     {"mesh", 870000, 1000, 20000000, "triangles of the mesh, within 1 %"},
     {"seed", 1, 0, kLargestSeed, "another farm"},
 }};
@@ -289,7 +289,7 @@ const SceneRecipe& farm_recipe() {
     static const SceneRecipe recipe{
         {"farm",
          "open fields with barns and trees, and herds of one very detailed mesh: work for levels of detail",
-         "492,446 triangles in 1,675 objects, and 310 moving objects of 870,000 triangles", kParameters},
+         "492,446 triangles in 1,675 objects, and 310 dynamic objects of 870,000 triangles", kParameters},
         farm_size,
         build_farm};
     return recipe;

@@ -184,7 +184,7 @@ const SceneRecipe& soup_recipe() {
         {"soup",
          "hard input: degenerate, duplicate, tiny, huge, far, coplanar and non-finite triangles, odd "
          "transforms",
-         "20,000 triangles in 848 objects, and 7 moving objects of 280 triangles", kParameters},
+         "20,000 triangles in 848 objects, and 7 dynamic objects of 280 triangles", kParameters},
         soup_size,
         build_soup};
     return recipe;

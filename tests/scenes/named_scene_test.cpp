@@ -95,7 +95,7 @@ std::string size_of(const Scene& scene) {
     std::string text = with_commas(scene.static_triangles()) + " triangles in " +
                        with_commas(scene.static_objects()) + " objects";
     if (scene.dynamic_objects.empty()) return text;
-    return text + ", and " + with_commas(scene.dynamic_objects.size()) + " moving objects of " +
+    return text + ", and " + with_commas(scene.dynamic_objects.size()) + " dynamic objects of " +
            with_commas(scene.dynamic_triangles() / scene.dynamic_objects.size()) + " triangles";
 }
 
