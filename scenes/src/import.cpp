@@ -29,11 +29,11 @@ std::string lower_case_extension(const std::filesystem::path& file) {
 }
 
 Result<Scene> dispatch(const std::filesystem::path& file, const std::string& name) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) return Error{name + ": is a folder; name a file in it"};
     const std::string extension = lower_case_extension(file);
     const bool gltf = extension == ".glb" || extension == ".gltf";
-    if (!gltf && extension != ".obj" && extension != ".ply") {
+    std::error_code ignored;
+    const bool folder = std::filesystem::is_directory(file, ignored);  // told as such, whatever its name
+    if (!folder && !gltf && extension != ".obj" && extension != ".ply") {
         return Error{
             fmt::format("{}: unknown scene format '{}'; use one of {}", name, extension, kSupported)};
     }

@@ -61,8 +61,8 @@ TEST_F(BadInput, scenes_that_are_not_there) {
     refuse("walk town:materials=85", {"materials", "84"}, 0);
     refuse("walk missing.glb", {"missing.glb"}, 0);
     refuse("info missing.obj", {"missing.obj"}, 0);
-    refuse("info .", {"is a folder"}, 0);
-    refuse("walk /dev", {"/dev: is a folder"}, 0);
+    refuse("info .", {"this is a directory"}, 0);
+    refuse("walk /dev", {"/dev: this is a directory"}, 0);
 }
 
 TEST_F(BadInput, broken_files) {
