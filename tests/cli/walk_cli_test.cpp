@@ -42,7 +42,12 @@ TEST_F(Walk, json_keeps_the_contract) {
     EXPECT_EQ(walk["scene"]["dynamic_objects"], 0);
     EXPECT_EQ(walk["scene"]["materials"], 1);
     for (const char* field : {"renderer", "version", "timer"}) EXPECT_TRUE(walk["device"][field].is_string());
-    EXPECT_TRUE(walk["profile"].contains("c1_ns"));
+    EXPECT_TRUE(walk["profile"]["c1_ns"].is_number());
+    EXPECT_EQ(walk["profile"]["source"], "quick");
+    EXPECT_TRUE(walk["summary"]["predicted_ms"]["median"].is_number());
+    for (const char* field : {"prediction_error", "running_prediction_error"})
+        for (const char* statistic : {"median", "p95"})
+            EXPECT_TRUE(walk["summary"][field][statistic].is_number()) << field;
     EXPECT_EQ(walk["method"], "octree");
     EXPECT_EQ(walk["mode"], "exact");
     EXPECT_EQ(walk["frames"], 12);
@@ -54,8 +59,7 @@ TEST_F(Walk, json_keeps_the_contract) {
         for (const char* statistic : {"mean", "median", "p95", "max"})
             EXPECT_TRUE(walk["summary"][field][statistic].is_number()) << field;
     // What was not measured is null, never 0.
-    for (const char* field :
-         {"predicted_ms", "prediction_error", "visible_objects", "lod_error_px", "missing_pixels"})
+    for (const char* field : {"visible_objects", "lod_error_px", "missing_pixels"})
         EXPECT_TRUE(walk["summary"][field].is_null()) << field;
     const std::string hash = walk["summary"]["plan_hash"];
     EXPECT_EQ(hash.size(), 16u);
