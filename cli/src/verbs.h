@@ -32,7 +32,8 @@ struct WalkOptions {
     std::string set;
     int frames = 120;
     int warmup = 8;
-    std::uint32_t leaf = 4096;
+    std::optional<std::uint32_t> leaf;
+    double replica_budget = 1.0;
     bool check = false;
     int check_every = 1;
     int images_every = 30;

@@ -248,13 +248,15 @@ WalkReport describe(const WalkOptions& options, const Scene& scene, const Prepar
     if (method.octree != nullptr) {
         report.build.nodes = method.octree->nodes().size();
         report.build.leaves = method.octree->leaf_count();
+        report.build.replicas = method.octree->replicas().size();
+        report.build.replica_bytes = method.octree->replica_bytes();
     }
     report.build.index_bytes = scene.index_bytes();
     report.build.vertex_bytes = scene.vertex_bytes();
     report.method = options.method;
     report.mode = options.mode;
     report.submission = options.submission;
-    report.leaf = options.leaf;
+    report.leaf = method.max_leaf_triangles;
     report.width = size.width;
     report.height = size.height;
     return report;
@@ -290,7 +292,10 @@ Result<int> run_walk(const WalkOptions& options) {
     const Result<SceneAndPath> loaded = load(options);
     if (!loaded) return loaded.error();
     progress.say("building");
-    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, options.leaf);
+    MethodOptions method_options{options.leaf, options.replica_budget, {}};
+    if (const std::optional<UserConstants>& known = *constants)
+        method_options.costs = {known->profile.c1_ns, known->profile.c3_ns, 0.0};
+    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, method_options);
     if (!method) return method.error();
 
     WalkReport report = describe(options, loaded->scene, *method, context->device(), *size);
