@@ -13,6 +13,7 @@
 #include "progress.h"
 #include "rhview/gl/context.h"
 #include "rhview/gl/timer.h"
+#include "rhview/rhoctree/draw_list.h"
 #include "scene_source.h"
 #include "verbs.h"
 #include "walk_report.h"
@@ -203,13 +204,20 @@ class Walk {
 
         gl::Picture reference = target_->read_colour();
         gl::Picture difference = gl::difference_picture(reference, culled_depths_, reference_depths_);
-        gl::Picture above = above_->draw(everything_, plan_, *method_.planner, *buffers_, bounds_,
-                                         culling_view_of(frame), *executor_);
+        const View culling_view = culling_view_of(frame);
+        std::vector<DrawRange> to_show;
+        if (options_.method == "rhview")
+            append_ranges_to_show(*method_.octree, make_frustum(culling_view, scene_.origin),
+                                  make_viewpoint(culling_view, scene_.origin), to_show);
+        gl::Picture above = above_->draw(everything_, plan_, to_show, *method_.planner, *buffers_, bounds_,
+                                         culling_view, *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
                                   record.draw_calls, static_cast<double>(record.indices) * 1e-6));
         reference.label("everything drawn");
         difference.label(fmt::format("missing pixels (red): {}", missing));
-        above.label("from above: drawn orange, not drawn grey, nodes blue, frustum red");
+        above.label(options_.method == "rhview"
+                        ? "from above: a colour per call (replicas blue, green), gaps violet, rest grey"
+                        : "from above: a colour per call, rest grey, nodes blue, frustum red");
         return gl::sheet(*culled, reference, difference, above)
             .save_png(*options_.images / fmt::format("frame_{:04}.png", frame));
     }
