@@ -72,8 +72,14 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
-    walk->add_option("--leaf", options.leaf, "Triangles per octree leaf, at most")
-        ->check(CLI::Range(1u, 4'000'000'000u))
+    walk->add_option("--leaf", options.leaf,
+                     "Triangles per octree leaf, at most; default: rhview chooses, the others take 4096")
+        ->type_name("N")
+        ->check(CLI::Range(1u, 4'000'000'000u));
+    walk->add_option("--replica-budget", options.replica_budget,
+                     "Bytes of rhview's replicas, as a multiple of the source indices' bytes")
+        ->type_name("R")
+        ->check(CLI::Range(0.0, 1'000.0))
         ->capture_default_str();
     walk->add_option("--submission", options.submission,
                      "plain: a call per range; multi: a multi-draw per batch")

@@ -25,14 +25,22 @@ struct PreparedMethod {
     std::unique_ptr<RhOctree> octree;  ///< null where the method needs none
     std::unique_ptr<FramePlanner> planner;
     std::optional<double> build_ms;
+    std::optional<std::uint32_t> max_leaf_triangles;
 
     /// The order of the static indices that the plans refer to; empty: the scene's own.
     [[nodiscard]] std::span<const std::uint32_t> static_indices() const;
 };
 
-/// Builds what `method` needs; `scene` outlives it. Leaves hold at most `max_leaf_triangles`.
+/// What the user says about building a method; absent is the method's default.
+struct MethodOptions {
+    std::optional<std::uint32_t> max_leaf_triangles;  ///< `rhview`: chosen from the costs; else 4096
+    double replica_budget = 1.0;                      ///< of `rhview`, times the source's index bytes
+    DrawCosts costs;                                  ///< what `rhview` plans by
+};
+
+/// Builds what `method` needs; `scene` outlives it.
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
-                                      std::uint32_t max_leaf_triangles);
+                                      const MethodOptions& options);
 
 /// The planner of what the picture must equal, whatever the order of the static indices.
 std::unique_ptr<FramePlanner> make_reference(const Scene& scene);

@@ -40,7 +40,8 @@ struct WalkOptions {
     int frames = 120;
     int warmup = 8;
     int repeats = 1;
-    std::uint32_t leaf = 4096;
+    std::optional<std::uint32_t> leaf;
+    double replica_budget = 1.0;
     bool check = false;
     int check_every = 1;
     int images_every = 30;

@@ -14,6 +14,7 @@
 #include "rhview/gl/context.h"
 #include "rhview/gl/timer.h"
 #include "rhview/gl/work_counter.h"
+#include "rhview/rhoctree/draw_list.h"
 #include "rhview/timing_model/running_update.h"
 #include "scene_source.h"
 #include "statistics.h"
@@ -206,13 +207,20 @@ class Walk {
 
         gl::Picture reference = target_->read_colour();
         gl::Picture difference = gl::difference_picture(reference, culled_depths_, reference_depths_);
-        gl::Picture above = above_->draw(everything_, plan_, *method_.planner, *buffers_, bounds_,
-                                         culling_view_of(frame), *executor_);
+        const View culling_view = culling_view_of(frame);
+        std::vector<DrawRange> to_show;
+        if (options_.method == "rhview")
+            append_ranges_to_show(*method_.octree, make_frustum(culling_view, scene_.origin),
+                                  make_viewpoint(culling_view, scene_.origin), to_show);
+        gl::Picture above = above_->draw(everything_, plan_, to_show, *method_.planner, *buffers_, bounds_,
+                                         culling_view, *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
                                   record.work.draw_calls, record.work.indices * 1e-6));
         reference.label("everything drawn");
         difference.label(fmt::format("missing pixels (red): {}", missing));
-        above.label("from above: drawn orange, not drawn grey, nodes blue, frustum red");
+        above.label(options_.method == "rhview"
+                        ? "from above: a colour per call (replicas blue, green), gaps violet, rest grey"
+                        : "from above: a colour per call, rest grey, nodes blue, frustum red");
         return gl::sheet(*culled, reference, difference, above)
             .save_png(*options_.images / fmt::format("frame_{:04}.png", frame));
     }
@@ -252,16 +260,24 @@ WalkReport describe(const WalkOptions& options, const Scene& scene, const Prepar
     if (method.octree != nullptr) {
         report.build.nodes = method.octree->nodes().size();
         report.build.leaves = method.octree->leaf_count();
+        report.build.replicas = method.octree->replicas().size();
+        report.build.replica_bytes = method.octree->replica_bytes();
     }
     report.build.index_bytes = scene.index_bytes();
     report.build.vertex_bytes = scene.vertex_bytes();
     report.method = options.method;
     report.mode = options.mode;
     report.submission = options.submission;
-    report.leaf = options.leaf;
+    report.leaf = method.max_leaf_triangles;
     report.width = size.width;
     report.height = size.height;
     return report;
+}
+
+/// What a range costs: a call of its own, or a part of its batch's multi-draw.
+DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw) {
+    if (multi_draw) return {profile.c1_ns, profile.sub_draw_ns.value_or(profile.c3_ns), profile.c3_ns};
+    return {profile.c1_ns, profile.c3_ns + profile.sub_draw_ns.value_or(0.0), 0.0};
 }
 
 Result<SceneAndPath> load(const WalkOptions& options) {
@@ -303,7 +319,9 @@ Result<int> run_walk(const WalkOptions& options) {
     }
     const std::optional<UserConstants>& constants = chosen->constants;
     progress.say("building");
-    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, options.leaf);
+    MethodOptions method_options{options.leaf, options.replica_budget, {}};
+    if (constants) method_options.costs = draw_costs(constants->profile, options.submission == "multi");
+    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, method_options);
     if (!method) return method.error();
 
     WalkReport report = describe(options, loaded->scene, *method, context->device(), *size);
