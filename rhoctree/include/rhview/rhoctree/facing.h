@@ -82,7 +82,9 @@ inline bool faces_away(const FacingCone& cone, const Viewpoint& viewpoint) {
             const glm::vec3 r(glm::dvec3(cone.apex) - viewpoint.point);
             const float along = glm::dot(cone.axis, r) - viewpoint.slack * cone.reach;
             // Strictly greater: where the squares overflow both are infinite, and nothing is proved.
-            return along > kLeastMargin && along * along > sine * sine * glm::dot(r, r);
+            // Both are computed: a branch here is a coin toss, and costs more than the products.
+            const bool behind = along > kLeastMargin;
+            return behind & (along * along > sine * sine * glm::dot(r, r));
         }
         case Viewpoint::Kind::Direction:
             return glm::dot(cone.axis, viewpoint.direction) > sine;
