@@ -119,7 +119,7 @@ std::string to_csv(const gl::Calibration& calibration) {
                            t.work.draw_calls, t.work.sub_draws, t.work.material_changes, t.work.queries,
                            t.work.primitives, t.work.fragments, t.work.passed_samples, t.frame_ns,
                            t.submit_ns, t.gpu_ns ? fmt::format("{:.0f}", *t.gpu_ns) : "",
-                           calibration.profile.predict_ns(t.work), t.rounds);
+                           calibration.profile.predict_ns(t.work), t.round_ns.size());
     return csv;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace rhview::gl {
 namespace {
@@ -101,6 +102,25 @@ std::vector<Sample> mixed(const std::vector<Sample>& samples) {
     return result;
 }
 
+/// The kept model fitted to each whole round on its own.
+std::vector<Fit> fits_of_rounds(const Calibration& calibration) {
+    std::vector<Term> terms;
+    for (const Coefficient& c : calibration.selection.fit.coefficients) terms.push_back(c.term);
+    FitOptions options;
+    options.combination = calibration.selection.fit.combination;
+    std::size_t rounds = SIZE_MAX;
+    for (const FrameTiming& timing : calibration.timings) rounds = std::min(rounds, timing.round_ns.size());
+    std::vector<Fit> fits;
+    for (std::size_t round = 0; round < rounds; ++round) {
+        std::vector<Sample> samples;
+        for (const FrameTiming& timing : calibration.timings)
+            samples.push_back({timing.work, timing.round_ns[round]});
+        Result<Fit> fit = fit_terms(samples, terms, options);
+        if (fit) fits.push_back(std::move(fit).value());
+    }
+    return fits;
+}
+
 }  // namespace
 
 Result<Calibration> calibrate(std::span<const CalibrationSubject> subjects, const DeviceInfo& device,
@@ -119,6 +139,7 @@ Result<Calibration> calibrate(std::span<const CalibrationSubject> subjects, cons
     Result<Selection> selection = select_model(mixed(samples_of(calibration.timings)));
     if (!selection) return Error{"the timing model could not be fitted: " + selection.error().message};
     calibration.selection = std::move(selection).value();
+    add_scatter(calibration.selection.fit, fits_of_rounds(calibration));
     constexpr std::array kCore{Term::Constant, Term::Indices, Term::DrawCalls};
     Result<Fit> submission = fit_terms(samples_of(calibration.timings, TimedPart::Submission), kCore);
     if (submission) calibration.submission = std::move(submission).value();

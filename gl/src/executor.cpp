@@ -12,6 +12,7 @@
 
 #include "attributes.h"
 #include "program.h"
+#include "rhview/base/rounding.h"
 #include "state_guard.h"
 
 namespace rhview::gl {
@@ -108,15 +109,14 @@ void Executor::set_transform(const View& view, const glm::dvec3& origin,
                              const glm::dmat4& scene_from_mesh) const {
     const glm::dmat3 linear(scene_from_mesh);
     const glm::dvec3 eye = glm::inverse(linear) * (view.eye() - origin - glm::dvec3(scene_from_mesh[3]));
-    const glm::vec3 high(eye);
-    const glm::vec3 low(eye - glm::dvec3(high));
+    const SplitPosition split = split_position(eye);
     const glm::mat4 clip(view.clip_from_eye_relative() * glm::dmat4(linear));
     const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                               glm::cross(linear[0], linear[1]));
     const glm::mat3 normals(is_mirrored(scene_from_mesh) ? -cofactor : cofactor);
     glUniformMatrix4fv(uniforms_.clip_from_relative, 1, GL_FALSE, glm::value_ptr(clip));
-    glUniform3fv(uniforms_.eye_high, 1, glm::value_ptr(high));
-    glUniform3fv(uniforms_.eye_low, 1, glm::value_ptr(low));
+    glUniform3fv(uniforms_.eye_high, 1, glm::value_ptr(split.high));
+    glUniform3fv(uniforms_.eye_low, 1, glm::value_ptr(split.low));
     glUniformMatrix3fv(uniforms_.normal_matrix, 1, GL_FALSE, glm::value_ptr(normals));
     glFrontFace(is_mirrored(scene_from_mesh) ? GL_CW : GL_CCW);
 }

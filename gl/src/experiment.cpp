@@ -157,7 +157,7 @@ class Experiment {
             timing.frame_ns = median(times.frame_ns);
             timing.submit_ns = median(times.submit_ns);
             if (!times.gpu_ns.empty()) timing.gpu_ns = median(times.gpu_ns);
-            timing.rounds = static_cast<int>(times.frame_ns.size());
+            timing.round_ns = times.frame_ns;
             result.push_back(timing);
         }
         return result;

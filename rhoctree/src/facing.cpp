@@ -24,6 +24,7 @@
 
 #include "rhview/base/aabb.h"
 #include "rhview/base/assert.h"
+#include "rhview/base/rounding.h"
 
 namespace rhview {
 namespace {
@@ -31,8 +32,8 @@ namespace {
 // Below this share of its rows a determinant is rounding, and the centre it gives nowhere.
 constexpr double kLeastVolume = 1e-9;
 
-// A float corner is wrong by 2^-24 of its distance from zero, but exact as the triangle that it is: products
-// of differences in double lose 2^-52 each, so a cross product keeps 22 bits above this.
+// Products of differences in double lose 2^-52 of two edges: above this share of them an altitude leaves 22
+// bits of the normal.
 constexpr double kLeastAltitude = 0x1p-30;
 
 // cos 89.9 degrees: what is wider is never seen from behind in practice.
@@ -123,15 +124,8 @@ glm::dvec3 smallest_cap_axis(std::span<const glm::dvec3> normals) {
     return cap.axis;
 }
 
-/// To the nearest float, for real: GCC 12 takes the way of a whole vector from double to float and back for
-/// nothing (-O2, seen with 12.2), and the apex that was checked would not be the one returned.
-float nearest(double value) {
-    const volatile float rounded = static_cast<float>(value);
-    return rounded;
-}
-
 float round_up(double value) {
-    const float rounded = nearest(value);
+    const float rounded = nearest_float(value);
     return static_cast<double>(rounded) >= value
                ? rounded
                : std::nextafter(rounded, std::numeric_limits<float>::infinity());
@@ -180,7 +174,7 @@ glm::vec3 place_apex(const Planes& planes, const glm::dvec3& axis, const glm::dv
     double step = 0.0;
     for (int i = 0; i < kTries; ++i) {
         const glm::dvec3 exact = centre - back * axis;
-        const glm::vec3 apex(nearest(exact.x), nearest(exact.y), nearest(exact.z));
+        const glm::vec3 apex = nearest_float(exact);
         const double excess = excess_along(planes, axis, glm::dvec3(apex));
         if (excess <= 0.0) return apex;
         const glm::vec3 size = glm::abs(apex);
@@ -199,7 +193,7 @@ FacingCone bound_facing(std::span<const glm::vec3> positions, std::span<const st
     if (!planes.finite || planes.normals.empty()) return {};
     FacingCone cone;
     const glm::dvec3 centre = smallest_cap_axis(planes.normals);
-    const glm::vec3 axis(nearest(centre.x), nearest(centre.y), nearest(centre.z));
+    const glm::vec3 axis = nearest_float(centre);
     if (axis == glm::vec3(0.0f)) return {};
     const glm::dvec3 unit = glm::normalize(glm::dvec3(axis));
     double sine = 0.0;

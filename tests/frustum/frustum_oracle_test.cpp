@@ -10,6 +10,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "rhview/base/rounding.h"
 #include "rhview/frustum/frustum.h"
 #include "uniform.h"
 
@@ -18,15 +19,13 @@ namespace {
 
 /// The vertex shader of `gl`, in float: eye subtracted as a pair, then the camera-relative clip matrix.
 struct FloatRenderer {
-    explicit FloatRenderer(const View& view) : eye_high(view.eye()), clip(view.clip_from_eye_relative()) {
-        eye_low = glm::vec3(view.eye() - glm::dvec3(eye_high));
-    }
+    explicit FloatRenderer(const View& view)
+        : eye(split_position(view.eye())), clip(view.clip_from_eye_relative()) {}
     [[nodiscard]] glm::vec4 transform(const glm::vec3& vertex) const {
-        const glm::vec3 relative = (vertex - eye_high) - eye_low;
+        const glm::vec3 relative = (vertex - eye.high) - eye.low;
         return clip * glm::vec4(relative, 1.0f);
     }
-    glm::vec3 eye_high;
-    glm::vec3 eye_low;
+    SplitPosition eye;
     glm::mat4 clip;
 };
 

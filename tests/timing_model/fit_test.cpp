@@ -153,5 +153,30 @@ TEST(Fit, prediction_is_that_of_the_formula_by_hand) {
     EXPECT_EQ(predict_ns(fit, work), 1000.0 + 6000.0);
 }
 
+TEST(Fit, scatter_of_its_parts_widens_the_standard_errors_by_their_deviation) {
+    Fit fit = fit_terms(test::samples_of(test::kCoreMachine, Combination::Sum, 60, 0.02, 1), test::kCoreTerms)
+                  .value();
+    const Fit before = fit;
+    add_scatter(fit, std::span(&before, 1));
+    EXPECT_EQ(fit.coefficients[1].standard_error_ns, before.coefficients[1].standard_error_ns);
+
+    // Three times of measuring: the machine was a tenth slower, as fast, a tenth faster.
+    std::vector<Fit> parts(3, before);
+    for (std::size_t j = 0; j < 3; ++j) {
+        parts[0].coefficients[j].value_ns *= 0.9;
+        parts[2].coefficients[j].value_ns *= 1.1;
+    }
+    add_scatter(fit, parts);
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Coefficient& c = fit.coefficients[j];
+        EXPECT_NEAR(c.standard_error_ns,
+                    std::hypot(before.coefficients[j].standard_error_ns, 0.1 * c.value_ns),
+                    1e-9 * c.value_ns);
+        EXPECT_EQ(c.value_ns, before.coefficients[j].value_ns);
+        EXPECT_LT(c.low_ns, before.coefficients[j].low_ns);
+        EXPECT_GT(c.high_ns, before.coefficients[j].high_ns);
+    }
+}
+
 }  // namespace
 }  // namespace rhview

@@ -108,6 +108,11 @@ Status check_sides(const ModelFit& model, std::size_t term_count) {
         " samples, too few for a maximum of both sides; measure more work of that side or fit the sum"};
 }
 
+void set_interval(Coefficient& c, double t) {
+    c.low_ns = std::max(0.0, c.value_ns - t * c.standard_error_ns);
+    c.high_ns = c.value_ns + t * c.standard_error_ns;
+}
+
 std::vector<Coefficient> coefficients_of(const ModelFit& model, std::span<const Term> terms, double step_ns,
                                          std::span<const int> points) {
     const Eigen::MatrixXd covariance = covariance_of(model.robust, model.design, step_ns, points);
@@ -119,8 +124,7 @@ std::vector<Coefficient> coefficients_of(const ModelFit& model, std::span<const 
         c.term = terms[j];
         c.value_ns = model.robust.constants[column];
         c.standard_error_ns = std::sqrt(std::max(0.0, covariance(column, column)));
-        c.low_ns = std::max(0.0, c.value_ns - t * c.standard_error_ns);
-        c.high_ns = c.value_ns + t * c.standard_error_ns;
+        set_interval(c, t);
         c.at_bound = c.value_ns == 0.0;
         result.push_back(c);
     }
@@ -175,6 +179,23 @@ Result<Fit> fit_terms(std::span<const Sample> samples, std::span<const Term> ter
     fit.outliers = static_cast<std::size_t>((model.robust.weights.array() < 0.1).count());
     cross_validate(samples, terms, options, fit);
     return fit;
+}
+
+void add_scatter(Fit& fit, std::span<const Fit> parts) {
+    if (parts.size() < 2) return;
+    for (Coefficient& c : fit.coefficients) {
+        double sum = 0.0, sum_of_squares = 0.0;
+        for (const Fit& part : parts) {
+            const Coefficient* same = part.find(c.term);
+            if (same == nullptr) return;
+            sum += same->value_ns;
+            sum_of_squares += same->value_ns * same->value_ns;
+        }
+        const auto n = static_cast<double>(parts.size());
+        const double variance = std::max(0.0, (sum_of_squares - sum * sum / n) / (n - 1.0));
+        c.standard_error_ns = std::hypot(c.standard_error_ns, std::sqrt(variance));
+        set_interval(c, t_quantile(static_cast<double>(fit.samples - fit.coefficients.size())));
+    }
 }
 
 }  // namespace rhview

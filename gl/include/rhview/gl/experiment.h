@@ -34,7 +34,7 @@ struct FrameTiming {
     double frame_ns = 0.0;         ///< submission and completion on the wall clock, median over the rounds
     double submit_ns = 0.0;        ///< until the last call returned
     std::optional<double> gpu_ns;  ///< GL_TIME_ELAPSED, where it was checked
-    int rounds = 0;
+    std::vector<double> round_ns;  ///< `frame_ns` of each round that came to it
 };
 
 struct ExperimentOptions {

@@ -86,6 +86,12 @@ constexpr std::size_t fewest_samples(std::size_t term_count) {
 Result<Fit> fit_terms(std::span<const Sample> samples, std::span<const Term> terms,
                       const FitOptions& options = {});
 
+/// Widens the standard errors of `fit` by what the constants of its parts scatter: `parts` are fits of the
+/// same terms to the same frames, measured at other times (rounds of one experiment). What all samples of a
+/// time share (another clock rate, a busy neighbour) is not in the residuals; it is in that scatter. Fewer
+/// than two parts, or others' terms, change nothing.
+void add_scatter(Fit& fit, std::span<const Fit> parts);
+
 /// One model that `select_model` tried.
 struct Candidate {
     std::vector<Term> terms;
