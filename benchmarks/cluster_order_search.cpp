@@ -317,9 +317,11 @@ int run(int argc, char** argv) {
         return argc > index ? std::strtoull(argv[index], nullptr, 10) : otherwise;
     };
     Search search(max_ranges, static_cast<std::uint32_t>(number(2, 1)));
-    search.anneal_order(number(3, 400'000), 0.003, 1e-5);
+    search.anneal_order(number(3, 1'000'000), 0.003, 1e-5);
     std::fprintf(stderr, "order of Fibonacci cells: %.4f drawn\n", 1.0 - search.value());
-    search.anneal_all(number(4, 200'000), 3e-4, 1e-6);
+    // With one range only the two ends of the order count: moved cells would make the middle coarse for
+    // nothing.
+    search.anneal_all(number(4, max_ranges == 1 ? 0 : 500'000), 3e-4, 1e-6);
     std::fprintf(stderr, "order and cells: %.4f drawn\n", 1.0 - search.value());
     print_table(search, max_ranges);
     return 0;

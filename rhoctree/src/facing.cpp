@@ -31,8 +31,8 @@ namespace {
 // Below this share of its rows a determinant is rounding, and the centre it gives nowhere.
 constexpr double kLeastVolume = 1e-9;
 
-// A float corner is wrong by 2^-24 of its distance from zero, but exact as the triangle that it is: products
-// of differences in double lose 2^-52 each, so a cross product keeps 22 bits above this.
+// Products of differences in double lose 2^-52 of two edges: above this share of them an altitude leaves 22
+// bits of the normal.
 constexpr double kLeastAltitude = 0x1p-30;
 
 // cos 89.9 degrees: what is wider is never seen from behind in practice.

@@ -5,10 +5,9 @@
 /// From where a set of triangles is seen from behind only: normal cones and the test against a viewpoint.
 ///
 /// Front faces are counter-clockwise by the order of a triangle's indices; positions are `float` in scene
-/// space, metres. Two-sided materials have no back: don't ask for them. Cones are for triangles that stay
-/// where they were bounded: a set that is placed by a matrix is tested with the viewpoint taken into its
-/// space by the inverse (any affine one that does not mirror; a mirrored one turns the winding round: bound
-/// it anew).
+/// space, metres. Two-sided materials have no back: don't ask for them. A set that a matrix places is tested
+/// with the viewpoint taken into the set's space: turning, moving and uniform scaling keep the slack, a
+/// matrix that mirrors turns the winding round (ask nothing then, or bound the set with two indices swapped).
 #pragma once
 
 #include <cstdint>
@@ -65,14 +64,14 @@ Viewpoint make_viewpoint(const View& view, const glm::dvec3& scene_origin = glm:
 /// altitude is below 2^-30 of an edge, where corners in `float` leave no normal. Never culled: normals that
 /// no cone of less than 89.9 degrees holds, a corner that is not finite, a set without area. Rounded
 /// outwards: the `float` cone is measured against each triangle in double.
-/// Cost: linear, about ten passes over the normals; allocates 24 bytes per triangle while it runs.
+/// Cost: linear, about ten passes over the normals; allocates 48 bytes per triangle while it runs.
 FacingCone bound_facing(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
 /// Proves that all triangles of the set are back-facing for a renderer, by a margin of `viewpoint.slack`.
 /// False proves nothing, and NaN gives false. Cost: 25 flops; no division, no root. Thread-safe. Why: for
 /// unit n within the cone and r = apex - viewpoint, axis·r >= sin·|r| + m gives n·r >= m, and n·(corner -
 /// viewpoint) >= n·r since the apex is behind the plane; with m = slack · (|r| + reach) the sine at every
-/// corner is at least the slack. Rounding of this test, 2^-20 of m, is lost in it. Source: anchored cones,
+/// corner is at least the slack. Rounding of this test is below 2^-13 of m. Source: anchored cones,
 /// Sander et al., "Silhouette clipping", 2000; the slack is our own.
 inline bool faces_away(const FacingCone& cone, const Viewpoint& viewpoint) {
     // Squares of less would be denormal, and their rounding no longer small.
@@ -83,7 +82,9 @@ inline bool faces_away(const FacingCone& cone, const Viewpoint& viewpoint) {
             const glm::vec3 r(glm::dvec3(cone.apex) - viewpoint.point);
             const float along = glm::dot(cone.axis, r) - viewpoint.slack * cone.reach;
             // Strictly greater: where the squares overflow both are infinite, and nothing is proved.
-            return along > kLeastMargin && along * along > sine * sine * glm::dot(r, r);
+            // Both are computed: a branch here is a coin toss, and costs more than the products.
+            const bool behind = along > kLeastMargin;
+            return behind & (along * along > sine * sine * glm::dot(r, r));
         }
         case Viewpoint::Kind::Direction:
             return glm::dot(cone.axis, viewpoint.direction) > sine;
