@@ -55,12 +55,6 @@ std::unique_ptr<FramePlanner> make_reference(const Scene& scene) {
     return std::make_unique<DrawEverything>(counts, scene.bounds());
 }
 
-DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw) {
-    const double index_ns = profile.c1_ns + profile.primitive_ns.value_or(0.0) / 3.0;
-    if (multi_draw && profile.sub_draw_ns) return {index_ns, *profile.sub_draw_ns, profile.c3_ns};
-    return {index_ns, profile.c3_ns + profile.sub_draw_ns.value_or(0.0), 0.0};
-}
-
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
                                       const MethodOptions& options) {
     PreparedMethod prepared;

@@ -14,7 +14,6 @@
 #include "rhview/pipeline/frame_planner.h"
 #include "rhview/rhoctree/rhoctree.h"
 #include "rhview/scenes/scene.h"
-#include "rhview/timing_model/profile.h"
 
 namespace rhview::cli {
 
@@ -38,11 +37,6 @@ struct MethodOptions {
     double replica_budget = 1.0;                      ///< of `rhview`, times the source's index bytes
     DrawCosts costs;                                  ///< what `rhview` plans by
 };
-
-/// What the model of a machine says of ranges: a plain draw is a call and a sub-draw, a multi-draw pays its
-/// call once per batch (where the model knows no sub-draws, both are planned alike). Primitives count as
-/// their indices.
-DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw);
 
 /// Builds what `method` needs; `scene` outlives it.
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,

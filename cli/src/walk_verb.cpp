@@ -274,6 +274,12 @@ WalkReport describe(const WalkOptions& options, const Scene& scene, const Prepar
     return report;
 }
 
+/// What a range costs: a call of its own, or a part of its batch's multi-draw.
+DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw) {
+    if (multi_draw) return {profile.c1_ns, profile.sub_draw_ns.value_or(profile.c3_ns), profile.c3_ns};
+    return {profile.c1_ns, profile.c3_ns + profile.sub_draw_ns.value_or(0.0), 0.0};
+}
+
 Result<SceneAndPath> load(const WalkOptions& options) {
     std::optional<CameraPath> path;
     if (options.path) {
