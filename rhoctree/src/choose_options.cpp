@@ -21,7 +21,7 @@ constexpr double kLeafNs = 107.0;            // per l indices in view: most leav
 constexpr double kShareInView = 0.3;         // of the indices
 constexpr double kRecordNs = 25.0;           // planning a record must be worth its indices
 constexpr double kLeastDraws = 0.5;          // that a leaf holds
-constexpr double kLeastLeaf = 3.0 * 2048.0;  // finer ones take longer to plan than 100 us, whatever c1
+constexpr double kLeastLeaf = 3.0 * 2304.0;  // finer ones take `town` longer to plan than 100 us
 constexpr double kLargestLeaf = 3.0 * 16384.0;
 
 }  // namespace

@@ -31,8 +31,8 @@ TEST(ChooseOptions, cheap_indices_and_large_batches_make_coarse_leaves) {
     };
     EXPECT_GT(leaf(0.1, 1), leaf(0.25, 1));
     EXPECT_GT(leaf(0.1, 1), leaf(0.1, 100));
-    EXPECT_EQ(leaf(100.0, 1), 2048u);
-    EXPECT_EQ(leaf(100.0, 0), 2048u);
+    EXPECT_EQ(leaf(100.0, 1), 2304u);
+    EXPECT_EQ(leaf(100.0, 0), 2304u);
 }
 
 TEST(ChooseOptions, free_indices_and_free_draws_are_answered_too) {
