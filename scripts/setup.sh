@@ -13,7 +13,7 @@ packages=(
     # tools
     g++ cmake ninja-build git python3 pkg-config clang-format
     # the core
-    libglm-dev
+    libglm-dev libtbb-dev
     # the timing model, to build it only
     libeigen3-dev
     # gl: entry points, contexts without a window, a software renderer, PNG files
