@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "morton_sort.h"
+#include "normal_order.h"
 #include "rhview/rhoctree/rhoctree.h"
 
 namespace rhview {
@@ -17,19 +18,25 @@ class OctreeBuilder {
   public:
     OctreeBuilder(std::span<const TriangleBatch> batches, std::span<MortonTriangle> triangles,
                   const OctreeOptions& options)
-        : batches_(batches), triangles_(triangles), max_leaf_(std::max(options.max_leaf_triangles, 1u)) {
+        : batches_(batches),
+          triangles_(triangles),
+          options_(options),
+          max_leaf_(std::max(options.max_leaf_triangles, 1u)) {
         std::size_t first = 0;
         for (const TriangleBatch& batch : batches) {
             next_index_.push_back(static_cast<std::uint32_t>(first));
             first += batch.indices.size();
         }
         octree_.indices_.resize(first);
+        octree_.base_index_count_ = first;
+        cluster_of_triangle_.resize(first / 3);
         octree_.batch_count_ = batches.size();
         slot_of_batch_.assign(batches.size(), kNoSlot);
     }
 
     RhOctree build() {
         if (!triangles_.empty()) add_node(0, triangles_.size(), 0);
+        add_pieces();
         return std::move(octree_);
     }
 
@@ -42,7 +49,7 @@ class OctreeBuilder {
         octree_.nodes_[id].triangle_count = static_cast<std::uint32_t>(end - begin);
         // Levels that keep all triangles together make no node.
         while (level < kMortonLevels && octant(begin, level) == octant(end - 1, level)) ++level;
-        if (end - begin <= max_leaf_ || level == kMortonLevels) {
+        if (level == kMortonLevels || is_small(begin, end)) {
             make_leaf(id, begin, end);
         } else {
             while (begin < end) {
@@ -52,6 +59,16 @@ class OctreeBuilder {
             }
             make_inner(id);
         }
+    }
+
+    /// Whether the triangles fit one leaf.
+    [[nodiscard]] bool is_small(std::size_t begin, std::size_t end) {
+        if (end - begin <= max_leaf_) return true;
+        if (!options_.count_leaf_per_batch) return false;
+        triangles_of_batch_.assign(batches_.size(), 0);
+        for (const MortonTriangle& t : triangles_.subspan(begin, end - begin))
+            if (++triangles_of_batch_[t.batch] > max_leaf_) return false;
+        return true;
     }
 
     [[nodiscard]] std::uint64_t octant(std::size_t triangle, int level) const {
@@ -69,24 +86,34 @@ class OctreeBuilder {
     }
 
     void make_leaf(std::uint32_t id, std::size_t begin, std::size_t end) {
-        // A leaf is drawn whole, so its order is free: the source's keeps neighbours that share vertices
-        // together.
+        // A leaf's order is free: the source's keeps neighbours that share vertices together, the clusters'
+        // comes first where there are any.
         std::ranges::sort(triangles_.subspan(begin, end - begin), {},
                           [](const MortonTriangle& t) { return std::pair(t.batch, t.triangle); });
         Aabb bounds;
-        for (std::size_t i = begin; i < end; ++i) {
-            const MortonTriangle& t = triangles_[i];
-            const TriangleBatch& batch = batches_[t.batch];
-            std::uint32_t& next = next_index_[t.batch];
-            add_to_range({BatchId{t.batch}, next, 3});
-            for (std::uint32_t corner = 0; corner < 3; ++corner) {
-                const std::uint32_t index = batch.indices[3 * std::size_t{t.triangle} + corner];
-                bounds.grow(batch.positions[index]);
-                octree_.indices_[next++] = index;
-            }
+        while (begin < end) {
+            std::size_t next = begin + 1;
+            while (next < end && triangles_[next].batch == triangles_[begin].batch) ++next;
+            add_leaf_part(triangles_.subspan(begin, next - begin), bounds);
+            begin = next;
         }
         ++octree_.leaf_count_;
         finish_node(id, bounds);
+    }
+
+    /// Triangles of one batch that share a leaf, in source order.
+    void add_leaf_part(std::span<const MortonTriangle> part, Aabb& bounds) {
+        const std::uint32_t batch_index = part.front().batch;
+        const TriangleBatch& batch = batches_[batch_index];
+        std::uint32_t& next = next_index_[batch_index];
+        const auto count = static_cast<std::uint32_t>(3 * part.size());
+        node_ranges_.push_back({BatchId{batch_index}, next, count});
+        const std::span<std::uint32_t> indices = std::span(octree_.indices_).subspan(next, count);
+        std::uint32_t* to = indices.data();
+        for (const MortonTriangle& t : part)
+            for (std::uint32_t corner = 0; corner < 3; ++corner)
+                bounds.grow(batch.positions[*to++ = batch.indices[3 * std::size_t{t.triangle} + corner]]);
+        next += count;
     }
 
     void make_inner(std::uint32_t id) {
@@ -97,6 +124,55 @@ class OctreeBuilder {
             for (const DrawRange& range : octree_.ranges(NodeId{child})) add_to_range(range);
         }
         finish_node(id, bounds);
+    }
+
+    /// Hands every batch's base order out to the nodes, in pieces.
+    void add_pieces() {
+        // Per batch: the end of the subtree that its last piece stands for.
+        std::vector<std::uint32_t> covered_until(batches_.size(), 0);
+        for (std::uint32_t id = 0; id < octree_.nodes_.size(); ++id) {
+            octree_.nodes_[id].first_piece = static_cast<std::uint32_t>(octree_.pieces_.size());
+            const bool leaf = octree_.is_leaf(NodeId{id});
+            for (const DrawRange& range : octree_.ranges(NodeId{id})) {
+                std::uint32_t& covered = covered_until[index_of(range.batch)];
+                if (id < covered || (!leaf && range.index_count > options_.min_record_indices)) continue;
+                covered = octree_.nodes_[id].end;
+                add_piece(id, range);
+            }
+        }
+        for (OctreeNode& node : octree_.nodes_)
+            node.piece_end = node.end < octree_.nodes_.size()
+                                 ? octree_.nodes_[node.end].first_piece
+                                 : static_cast<std::uint32_t>(octree_.pieces_.size());
+    }
+
+    void add_piece(std::uint32_t id, const DrawRange& range) {
+        const TriangleBatch& batch = batches_[index_of(range.batch)];
+        const std::span<const std::uint32_t> indices =
+            octree_.indices().subspan(range.first_index, range.index_count);
+        OctreePiece piece;
+        piece.bounds = octree_.nodes_[id].bounds;
+        if (octree_.nodes_[id].range_count > 1) {
+            piece.bounds = {};
+            for (const std::uint32_t index : indices) piece.bounds.grow(batch.positions[index]);
+        }
+        piece.batch = range.batch;
+        piece.first_index = range.first_index;
+        piece.index_count = range.index_count;
+        piece.first_cluster = static_cast<std::uint32_t>(octree_.clusters_.size());
+        if (batch.two_sided || !options_.normal_order) {
+            octree_.clusters_.push_back({FacingCone(), range.index_count});
+        } else {
+            // Over several leaves the order starts anew in each: clusters would be met again and again.
+            const bool ordered = octree_.is_leaf(NodeId{id});
+            append_clusters(batch.positions, indices,
+                            ordered ? std::span<const std::uint8_t>(cluster_of_triangle_)
+                                          .subspan(range.first_index / 3, range.index_count / 3)
+                                    : std::span<const std::uint8_t>(),
+                            options_.min_record_indices, octree_.clusters_);
+        }
+        piece.cluster_count = static_cast<std::uint32_t>(octree_.clusters_.size()) - piece.first_cluster;
+        octree_.pieces_.push_back(piece);
     }
 
     /// Joins `range` to what the current node already has of that batch; it follows it without a gap.
@@ -124,8 +200,11 @@ class OctreeBuilder {
 
     std::span<const TriangleBatch> batches_;
     std::span<MortonTriangle> triangles_;
+    OctreeOptions options_;
     std::size_t max_leaf_;
     RhOctree octree_;
+    std::vector<std::uint8_t> cluster_of_triangle_;  ///< in base order
+    std::vector<std::uint32_t> triangles_of_batch_;
     std::vector<std::uint32_t> next_index_;     ///< per batch: where its next triangle goes
     std::vector<DrawRange> node_ranges_;        ///< of the node being finished
     std::vector<std::uint32_t> slot_of_batch_;  ///< place in `node_ranges_`

@@ -86,7 +86,8 @@ std::vector<TriangleBatch> Scene::triangle_batches() const {
     std::vector<TriangleBatch> views;
     views.reserve(batches.size());
     for (const SceneBatch& batch : batches)
-        views.push_back({batch.material, pools[batch.pool].positions, batch.indices});
+        views.push_back({batch.material, pools[batch.pool].positions, batch.indices,
+                         materials[index_of(batch.material)].two_sided});
     return views;
 }
 

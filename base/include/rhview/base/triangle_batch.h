@@ -20,6 +20,7 @@ struct TriangleBatch {
     MaterialId material{};
     std::span<const glm::vec3> positions;    ///< scene space, metres
     std::span<const std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from its front
+    bool two_sided = false;                  ///< drawn from behind too: no triangle is ever turned away
 };
 
 }  // namespace rhview

@@ -2,17 +2,61 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// Which nodes of an octree to draw for a frustum. Every triangle of every leaf that may be visible is
-/// covered, once.
+/// What to draw of an octree for a view: the cheapest draw list, and the simple rules that it is compared
+/// with.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "rhview/frustum/frustum.h"
+#include "rhview/rhoctree/draw_costs.h"
+#include "rhview/rhoctree/facing.h"
+#include "rhview/rhoctree/range_route.h"
 #include "rhview/rhoctree/rhoctree.h"
 
 namespace rhview {
+
+/// What `DrawListSolver` found. Reuse it: clearing keeps the memory.
+struct DrawList {
+    std::vector<DrawRange> ranges;  ///< by batch; within a batch along the base order
+    std::vector<NodeId> nodes;      ///< whose pieces were looked at, as one where the whole node is inside
+    double predicted_ns = 0.0;      ///< what `ranges` cost by the model
+    std::uint64_t nodes_visited = 0;
+    std::uint64_t pieces_visited = 0;
+    std::uint32_t replicas_drawn = 0;
+};
+
+/// The cheapest draw list: the least c1·V + c3·N over every way of joining what may be visible to ranges,
+/// over gaps or not, and of drawing replicas instead. One solver per view and thread; it keeps its memory.
+///
+/// Shown is every triangle of a piece that is not outside the frustum, except those of clusters that face
+/// away. The minimum is exact for these pieces and clusters, up to the rounding of sums of doubles; ranges
+/// that join one replica to another are not looked for. Cost: linear in the nodes not outside, their pieces
+/// and clusters. A subtree inside the frustum is a loop over its pieces; a piece too short for a gap that
+/// pays is looked at from its ends only. Source: docs/draw-list.md.
+class DrawListSolver {
+  public:
+    void solve(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
+               const DrawCosts& costs, DrawList& list);
+
+  private:
+    struct OpenReplica {
+        RangeRoute::ReplicaEntry entry;
+        std::uint32_t replica = 0;
+    };
+
+    std::vector<RangeRoute> routes_;  ///< by batch
+    RangeLog log_;
+    std::vector<OpenReplica> open_replicas_;  ///< a stack: replicas are nested or apart
+
+    friend class DrawListWalk;
+};
+
+/// Appends, in base order per node, what a draw list of this view must show: the pieces that are not outside
+/// without their clusters that face away. For pictures and tests.
+void append_ranges_to_show(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
+                           std::vector<DrawRange>& ranges);
 
 /// Nodes to draw, in depth-first order. Reuse it: clearing keeps the memory.
 struct NodeList {

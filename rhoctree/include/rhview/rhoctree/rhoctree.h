@@ -3,7 +3,7 @@
 
 /// \file
 /// The replicated octree over static triangles: an order of the indices in which every node is one contiguous
-/// range per batch.
+/// range per batch, and second copies of some nodes' indices, ordered by normal.
 ///
 /// Every triangle belongs to exactly one leaf, by its centroid; node boxes are refitted to their triangles,
 /// so they may overlap. Vertices stay where the engine has them. Shared and const once built: any number of
@@ -18,6 +18,7 @@
 #include "rhview/base/ids.h"
 #include "rhview/base/result.h"
 #include "rhview/base/triangle_batch.h"
+#include "rhview/rhoctree/facing.h"
 
 namespace rhview {
 
@@ -25,6 +26,14 @@ struct OctreeOptions {
     /// A node with more triangles is split, unless all their centroids share one cell of the finest grid. 0
     /// counts as 1.
     std::uint32_t max_leaf_triangles = 4096;
+    /// Leaves are bounded by the triangles of one batch instead of all together: what a draw call can hold.
+    bool count_leaf_per_batch = false;
+    /// Order a leaf's triangles by normal, so that those turned away are skipped or cut off. Never those of
+    /// two-sided batches.
+    bool normal_order = true;
+    /// Records (pieces and normal clusters) of fewer indices are joined to their neighbours where that can
+    /// be.
+    std::uint32_t min_record_indices = 0;
 };
 
 /// Part of the octree's index buffer that one batch draws.
@@ -36,13 +45,48 @@ struct DrawRange {
     friend bool operator==(const DrawRange&, const DrawRange&) = default;
 };
 
+/// Triangles of one batch whose normals are alike, next to one another in the index buffer.
+struct NormalCluster {
+    FacingCone facing;
+    std::uint32_t index_count = 0;
+};
+
+/// The finest part of the base order that draw lists tell apart: one batch's triangles in a leaf, or in an
+/// inner node where they are too few to be divided further. The pieces of a batch stand in base order and
+/// cover it.
+struct OctreePiece {
+    Aabb bounds;  ///< of its triangles
+    BatchId batch{};
+    std::uint32_t first_index = 0;  ///< into `RhOctree::indices`
+    std::uint32_t index_count = 0;
+    std::uint32_t first_cluster = 0;  ///< its clusters follow one another in the index buffer and cover it
+    std::uint32_t cluster_count = 0;  ///< at least one
+};
+
+/// A second copy of a node's indices of one batch, ordered by normal over the whole node. Stands behind the
+/// base order. No replica of a batch lies below another one's node.
+struct OctreeReplica {
+    NodeId node{};
+    BatchId batch{};
+    std::uint32_t first_index = 0;  ///< into `RhOctree::indices`
+    std::uint32_t index_count = 0;
+    std::uint32_t first_cluster = 0;
+    std::uint32_t cluster_count = 0;
+};
+
 /// Nodes stand in depth-first order: a node's first child follows it, its subtree ends before `end`.
+/// Pieces and replicas stand in the order of their nodes, so a subtree's are contiguous, the node's own
+/// first.
 struct OctreeNode {
     Aabb bounds;  ///< of its triangles
     std::uint32_t end = 0;
     std::uint32_t first_range = 0;
     std::uint32_t range_count = 0;  ///< one per batch that has triangles here
     std::uint32_t triangle_count = 0;
+    std::uint32_t first_piece = 0;
+    std::uint32_t piece_end = 0;  ///< of the subtree
+    std::uint32_t first_replica = 0;
+    std::uint32_t replica_end = 0;  ///< of the subtree
 };
 
 class RhOctree {
@@ -54,19 +98,31 @@ class RhOctree {
     [[nodiscard]] std::span<const DrawRange> ranges(NodeId id) const {
         return std::span(ranges_).subspan(node(id).first_range, node(id).range_count);
     }
-    /// The index buffer to draw from, in base order: batch after batch, leaves in depth-first order, a leaf's
-    /// triangles in source order. Index values are the batch's own, into its `positions`. A
-    /// triangle's three indices keep their order, so that depths agree to the last bit with the source's.
+    /// The index buffer to draw from. In base order first: batch after batch, leaves in depth-first order;
+    /// then the replicas. Index values are the batch's own, into its `positions`. A triangle's three indices
+    /// keep their order, so that depths agree to the last bit with the source's.
     [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
+    /// Those of the base order: as many as the batches have.
+    [[nodiscard]] std::size_t base_index_count() const { return base_index_count_; }
+    [[nodiscard]] std::span<const OctreePiece> pieces() const { return pieces_; }
+    [[nodiscard]] std::span<const OctreeReplica> replicas() const { return replicas_; }
+    [[nodiscard]] std::span<const NormalCluster> clusters() const { return clusters_; }
     [[nodiscard]] std::size_t batch_count() const { return batch_count_; }
     [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
+    [[nodiscard]] std::size_t replica_bytes() const {
+        return (indices_.size() - base_index_count_) * sizeof(std::uint32_t);
+    }
 
   private:
     friend class OctreeBuilder;
 
     std::vector<OctreeNode> nodes_;
     std::vector<DrawRange> ranges_;
+    std::vector<OctreePiece> pieces_;
+    std::vector<OctreeReplica> replicas_;
+    std::vector<NormalCluster> clusters_;
     std::vector<std::uint32_t> indices_;
+    std::size_t base_index_count_ = 0;
     std::size_t batch_count_ = 0;
     std::size_t leaf_count_ = 0;
 };
