@@ -148,7 +148,7 @@ Status RhoFile::check_gap(std::uint64_t begin, std::uint64_t end) const {
     return success();
 }
 
-Result<SharedArray<std::byte>> RhoFile::section(SectionTag tag, std::uint32_t version) const {
+Result<MappableArray<std::byte>> RhoFile::section(SectionTag tag, std::uint32_t version) const {
     const Section* const found = find(tag);
     if (found == nullptr) return error("section " + text_of(tag) + " is missing");
     if (found->version > version)
@@ -159,7 +159,7 @@ Result<SharedArray<std::byte>> RhoFile::section(SectionTag tag, std::uint32_t ve
     const std::span<const std::byte> bytes = bytes_->bytes().subspan(found->offset, found->size);
     if (block_checksum(bytes) != found->checksum)
         return error(tag, "its checksum does not fit: the file is damaged");
-    return SharedArray<std::byte>(bytes, bytes_);
+    return MappableArray<std::byte>(bytes, bytes_);
 }
 
 }  // namespace rhview

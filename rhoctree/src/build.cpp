@@ -27,7 +27,7 @@ class OctreeBuilder {
             next_index_.push_back(static_cast<std::uint32_t>(first));
             first += batch.indices.size();
         }
-        octree_.indices_.resize(first);
+        octree_.indices_.own().resize(first);
         octree_.base_index_count_ = first;
         cluster_of_triangle_.resize(first / 3);
         octree_.batch_count_ = batches.size();
@@ -44,9 +44,9 @@ class OctreeBuilder {
     static constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
 
     void add_node(std::size_t begin, std::size_t end, int level) {
-        const auto id = static_cast<std::uint32_t>(octree_.nodes_.size());
-        octree_.nodes_.emplace_back();
-        octree_.nodes_[id].triangle_count = static_cast<std::uint32_t>(end - begin);
+        const auto id = static_cast<std::uint32_t>(octree_.nodes_.own().size());
+        octree_.nodes_.own().emplace_back();
+        octree_.nodes_.own()[id].triangle_count = static_cast<std::uint32_t>(end - begin);
         // Levels that keep all triangles together make no node.
         while (level < kMortonLevels && octant(begin, level) == octant(end - 1, level)) ++level;
         if (level == kMortonLevels || is_small(begin, end)) {
@@ -108,7 +108,7 @@ class OctreeBuilder {
         std::uint32_t& next = next_index_[batch_index];
         const auto count = static_cast<std::uint32_t>(3 * part.size());
         node_ranges_.push_back({BatchId{batch_index}, next, count});
-        const std::span<std::uint32_t> indices = std::span(octree_.indices_).subspan(next, count);
+        const std::span<std::uint32_t> indices = std::span(octree_.indices_.own()).subspan(next, count);
         std::uint32_t* to = indices.data();
         for (const MortonTriangle& t : part)
             for (std::uint32_t corner = 0; corner < 3; ++corner)
@@ -118,9 +118,9 @@ class OctreeBuilder {
 
     void make_inner(std::uint32_t id) {
         Aabb bounds;
-        const auto end = static_cast<std::uint32_t>(octree_.nodes_.size());
-        for (std::uint32_t child = id + 1; child < end; child = octree_.nodes_[child].end) {
-            bounds.grow(octree_.nodes_[child].bounds);
+        const auto end = static_cast<std::uint32_t>(octree_.nodes_.own().size());
+        for (std::uint32_t child = id + 1; child < end; child = octree_.nodes_.own()[child].end) {
+            bounds.grow(octree_.nodes_.own()[child].bounds);
             for (const DrawRange& range : octree_.ranges(NodeId{child})) add_to_range(range);
         }
         finish_node(id, bounds);
@@ -130,20 +130,20 @@ class OctreeBuilder {
     void add_pieces() {
         // Per batch: the end of the subtree that its last piece stands for.
         std::vector<std::uint32_t> covered_until(batches_.size(), 0);
-        for (std::uint32_t id = 0; id < octree_.nodes_.size(); ++id) {
-            octree_.nodes_[id].first_piece = static_cast<std::uint32_t>(octree_.pieces_.size());
+        for (std::uint32_t id = 0; id < octree_.nodes_.own().size(); ++id) {
+            octree_.nodes_.own()[id].first_piece = static_cast<std::uint32_t>(octree_.pieces_.own().size());
             const bool leaf = octree_.is_leaf(NodeId{id});
             for (const DrawRange& range : octree_.ranges(NodeId{id})) {
                 std::uint32_t& covered = covered_until[index_of(range.batch)];
                 if (id < covered || (!leaf && range.index_count > options_.min_record_indices)) continue;
-                covered = octree_.nodes_[id].end;
+                covered = octree_.nodes_.own()[id].end;
                 add_piece(id, range);
             }
         }
-        for (OctreeNode& node : octree_.nodes_)
-            node.piece_end = node.end < octree_.nodes_.size()
-                                 ? octree_.nodes_[node.end].first_piece
-                                 : static_cast<std::uint32_t>(octree_.pieces_.size());
+        for (OctreeNode& node : octree_.nodes_.own())
+            node.piece_end = node.end < octree_.nodes_.own().size()
+                                 ? octree_.nodes_.own()[node.end].first_piece
+                                 : static_cast<std::uint32_t>(octree_.pieces_.own().size());
     }
 
     void add_piece(std::uint32_t id, const DrawRange& range) {
@@ -151,17 +151,17 @@ class OctreeBuilder {
         const std::span<const std::uint32_t> indices =
             octree_.indices().subspan(range.first_index, range.index_count);
         OctreePiece piece;
-        piece.bounds = octree_.nodes_[id].bounds;
-        if (octree_.nodes_[id].range_count > 1) {
+        piece.bounds = octree_.nodes_.own()[id].bounds;
+        if (octree_.nodes_.own()[id].range_count > 1) {
             piece.bounds = {};
             for (const std::uint32_t index : indices) piece.bounds.grow(batch.positions[index]);
         }
         piece.batch = range.batch;
         piece.first_index = range.first_index;
         piece.index_count = range.index_count;
-        piece.first_cluster = static_cast<std::uint32_t>(octree_.clusters_.size());
+        piece.first_cluster = static_cast<std::uint32_t>(octree_.clusters_.own().size());
         if (batch.two_sided || !options_.normal_order) {
-            octree_.clusters_.push_back({FacingCone(), range.index_count});
+            octree_.clusters_.own().push_back({FacingCone(), range.index_count});
         } else {
             // Over several leaves the order starts anew in each: clusters would be met again and again.
             const bool ordered = octree_.is_leaf(NodeId{id});
@@ -169,10 +169,11 @@ class OctreeBuilder {
                             ordered ? std::span<const std::uint8_t>(cluster_of_triangle_)
                                           .subspan(range.first_index / 3, range.index_count / 3)
                                     : std::span<const std::uint8_t>(),
-                            options_.min_record_indices, octree_.clusters_);
+                            options_.min_record_indices, octree_.clusters_.own());
         }
-        piece.cluster_count = static_cast<std::uint32_t>(octree_.clusters_.size()) - piece.first_cluster;
-        octree_.pieces_.push_back(piece);
+        piece.cluster_count =
+            static_cast<std::uint32_t>(octree_.clusters_.own().size()) - piece.first_cluster;
+        octree_.pieces_.own().push_back(piece);
     }
 
     /// Joins `range` to what the current node already has of that batch; it follows it without a gap.
@@ -189,12 +190,12 @@ class OctreeBuilder {
     void finish_node(std::uint32_t id, const Aabb& bounds) {
         std::ranges::sort(node_ranges_, {}, &DrawRange::batch);
         for (const DrawRange& range : node_ranges_) slot_of_batch_[index_of(range.batch)] = kNoSlot;
-        OctreeNode& node = octree_.nodes_[id];
+        OctreeNode& node = octree_.nodes_.own()[id];
         node.bounds = bounds;
-        node.end = static_cast<std::uint32_t>(octree_.nodes_.size());
-        node.first_range = static_cast<std::uint32_t>(octree_.ranges_.size());
+        node.end = static_cast<std::uint32_t>(octree_.nodes_.own().size());
+        node.first_range = static_cast<std::uint32_t>(octree_.ranges_.own().size());
         node.range_count = static_cast<std::uint32_t>(node_ranges_.size());
-        octree_.ranges_.insert(octree_.ranges_.end(), node_ranges_.begin(), node_ranges_.end());
+        octree_.ranges_.own().insert(octree_.ranges_.own().end(), node_ranges_.begin(), node_ranges_.end());
         node_ranges_.clear();
     }
 

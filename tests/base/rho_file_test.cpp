@@ -85,7 +85,7 @@ TEST_F(RhoFileTest, gives_back_the_sections_that_were_written) {
     ASSERT_TRUE(file.ok()) << file.error().message;
     const auto numbers = file->array<std::uint32_t>(kNumbers, 1);
     ASSERT_TRUE(numbers.ok());
-    EXPECT_EQ(*numbers, (SharedArray<std::uint32_t>({1, 2, 3, 5, 8})));
+    EXPECT_EQ(*numbers, (MappableArray<std::uint32_t>({1, 2, 3, 5, 8})));
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(numbers->data()) % 64, 0u);
     EXPECT_EQ(file->section(kText, 2)->size(), 70u);
     EXPECT_EQ(file->section(kNothing, 1)->size(), 0u);
@@ -105,7 +105,7 @@ TEST_F(RhoFileTest, sections_of_many_pieces_and_blocks_are_whole_and_outlive_the
                 {std::as_bytes(all.first(1)), std::as_bytes(all.subspan(1, 0)),
                  std::as_bytes(all.subspan(1, 250'000)), std::as_bytes(all.subspan(250'001))});
     ASSERT_TRUE(writer->finish().ok());
-    SharedArray<std::uint64_t> kept;
+    MappableArray<std::uint64_t> kept;
     {
         const Result<RhoFile> file = RhoFile::open(file_);
         ASSERT_TRUE(file.ok());

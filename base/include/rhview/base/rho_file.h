@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "rhview/base/file_bytes.h"
+#include "rhview/base/mappable_array.h"
 #include "rhview/base/result.h"
-#include "rhview/base/shared_array.h"
 
 namespace rhview {
 
@@ -47,22 +47,24 @@ class RhoFile {
 
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] std::size_t size_bytes() const { return bytes_->bytes().size(); }
+    /// What keeps the sections' bytes alive.
+    [[nodiscard]] const std::shared_ptr<const FileBytes>& owner() const { return bytes_; }
     [[nodiscard]] bool has(SectionTag tag) const { return find(tag) != nullptr; }
 
     /// The bytes of a section that is whole. Errors: it is absent, it is of a version above `version`, its
     /// checksum is wrong. Cost: one pass over it, on all of oneTBB's threads.
-    [[nodiscard]] Result<SharedArray<std::byte>> section(SectionTag tag, std::uint32_t version) const;
+    [[nodiscard]] Result<MappableArray<std::byte>> section(SectionTag tag, std::uint32_t version) const;
 
     /// The section as records of `T`. `T` has no pointers and no padding. Another error: its size is no
     /// multiple of a record's.
     template <class T>
-    [[nodiscard]] Result<SharedArray<T>> array(SectionTag tag, std::uint32_t version) const {
+    [[nodiscard]] Result<MappableArray<T>> array(SectionTag tag, std::uint32_t version) const {
         static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64);
-        const Result<SharedArray<std::byte>> bytes = section(tag, version);
+        const Result<MappableArray<std::byte>> bytes = section(tag, version);
         if (!bytes) return bytes.error();
         if (bytes->size() % sizeof(T) != 0) return not_records(tag, bytes->size(), sizeof(T));
-        return SharedArray<T>(std::span(reinterpret_cast<const T*>(bytes->data()), bytes->size() / sizeof(T)),
-                              bytes_);
+        return MappableArray<T>(
+            std::span(reinterpret_cast<const T*>(bytes->data()), bytes->size() / sizeof(T)), bytes_);
     }
 
     /// "<name>: section TAG: <what>; <mend>": what a module says of a section that contradicts itself.

@@ -12,10 +12,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "rhview/base/aabb.h"
 #include "rhview/base/ids.h"
+#include "rhview/base/mappable_array.h"
 #include "rhview/base/result.h"
 #include "rhview/base/triangle_batch.h"
 #include "rhview/rhoctree/facing.h"
@@ -91,22 +91,22 @@ struct OctreeNode {
 
 class RhOctree {
   public:
-    [[nodiscard]] std::span<const OctreeNode> nodes() const { return nodes_; }
+    [[nodiscard]] std::span<const OctreeNode> nodes() const { return nodes_.span(); }
     [[nodiscard]] const OctreeNode& node(NodeId id) const { return nodes_[index_of(id)]; }
     [[nodiscard]] bool is_leaf(NodeId id) const { return nodes_[index_of(id)].end == index_of(id) + 1; }
     /// The node's triangles, one contiguous range per batch, by batch id.
     [[nodiscard]] std::span<const DrawRange> ranges(NodeId id) const {
-        return std::span(ranges_).subspan(node(id).first_range, node(id).range_count);
+        return ranges_.span().subspan(node(id).first_range, node(id).range_count);
     }
     /// The index buffer to draw from. In base order first: batch after batch, leaves in depth-first order;
     /// then the replicas. Index values are the batch's own, into its `positions`. A triangle's three indices
     /// keep their order, so that depths agree to the last bit with the source's.
-    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
+    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_.span(); }
     /// Those of the base order: as many as the batches have.
     [[nodiscard]] std::size_t base_index_count() const { return base_index_count_; }
-    [[nodiscard]] std::span<const OctreePiece> pieces() const { return pieces_; }
-    [[nodiscard]] std::span<const OctreeReplica> replicas() const { return replicas_; }
-    [[nodiscard]] std::span<const NormalCluster> clusters() const { return clusters_; }
+    [[nodiscard]] std::span<const OctreePiece> pieces() const { return pieces_.span(); }
+    [[nodiscard]] std::span<const OctreeReplica> replicas() const { return replicas_.span(); }
+    [[nodiscard]] std::span<const NormalCluster> clusters() const { return clusters_.span(); }
     [[nodiscard]] std::size_t batch_count() const { return batch_count_; }
     [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
     [[nodiscard]] std::size_t replica_bytes() const {
@@ -116,12 +116,12 @@ class RhOctree {
   private:
     friend class OctreeBuilder;
 
-    std::vector<OctreeNode> nodes_;
-    std::vector<DrawRange> ranges_;
-    std::vector<OctreePiece> pieces_;
-    std::vector<OctreeReplica> replicas_;
-    std::vector<NormalCluster> clusters_;
-    std::vector<std::uint32_t> indices_;
+    MappableArray<OctreeNode> nodes_;
+    MappableArray<DrawRange> ranges_;
+    MappableArray<OctreePiece> pieces_;
+    MappableArray<OctreeReplica> replicas_;
+    MappableArray<NormalCluster> clusters_;
+    MappableArray<std::uint32_t> indices_;
     std::size_t base_index_count_ = 0;
     std::size_t batch_count_ = 0;
     std::size_t leaf_count_ = 0;
