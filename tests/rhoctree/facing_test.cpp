@@ -134,8 +134,8 @@ TEST_P(FacingOracle, sets_that_face_away_are_back_facing_by_the_slack_in_long_do
             narrow_provable += sine > 0.1L && spread < 0.05;
         }
     }
-    EXPECT_GT(provable, 10'000u);
-    EXPECT_GT(narrow_provable, 5'000u);
+    EXPECT_GT(provable, 5'000u);
+    EXPECT_GT(narrow_provable, 3'000u);
     EXPECT_GT(static_cast<double>(narrow_yes), 0.9 * static_cast<double>(narrow_provable));
     EXPECT_GT(static_cast<double>(yes), 0.8 * static_cast<double>(provable));
 }
