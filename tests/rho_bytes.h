@@ -47,6 +47,24 @@ struct RhoBytes {
         return static_cast<std::size_t>(get<std::uint64_t>(entry(find(tag)) + kEntryOffset));
     }
 
+    /// Lays the file out anew with another content of section `tag`; checksums are for `repair`.
+    void replace(const std::string& tag, std::span<const std::byte> content) {
+        RhoBytes result;
+        result.bytes.assign(bytes.begin(),
+                            bytes.begin() + static_cast<std::ptrdiff_t>(entry(section_count())));
+        for (std::size_t i = 0; i < section_count(); ++i) {
+            const auto offset = get<std::uint64_t>(entry(i) + kEntryOffset);
+            const auto size = get<std::uint64_t>(entry(i) + kEntrySize);
+            const std::span<const std::byte> section =
+                i == find(tag) ? content : std::span<const std::byte>(bytes).subspan(offset, size);
+            result.bytes.resize((result.bytes.size() + 63) / 64 * 64);
+            result.set<std::uint64_t>(entry(i) + kEntryOffset, result.bytes.size());
+            result.set<std::uint64_t>(entry(i) + kEntrySize, section.size());
+            result.bytes.insert(result.bytes.end(), section.begin(), section.end());
+        }
+        *this = std::move(result);
+    }
+
     /// Makes all checksums and the length fit whatever the bytes are now: what is wrong then must be found by
     /// what it says. Counts and places that leave the bytes are kept as they are.
     void repair() {

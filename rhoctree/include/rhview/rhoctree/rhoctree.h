@@ -115,6 +115,7 @@ class RhOctree {
 
   private:
     friend class OctreeBuilder;
+    friend class OctreeFile;
 
     MappableArray<OctreeNode> nodes_;
     MappableArray<DrawRange> ranges_;
