@@ -3,6 +3,8 @@
 
 #include "rhview/rhoctree/baked_octree.h"
 
+#include <cmath>
+
 #include "octree_file.h"
 
 namespace rhview {
@@ -19,6 +21,10 @@ OctreeInfoRecord info_of(const RhOctree& octree, const OctreeOptions& options) {
     info.min_record_indices = options.min_record_indices;
     info.count_leaf_per_batch = options.count_leaf_per_batch ? 1 : 0;
     info.normal_order = options.normal_order ? 1 : 0;
+    info.replica_budget = options.replica_budget;
+    info.index_ns = options.costs.index_ns;
+    info.draw_ns = options.costs.draw_ns;
+    info.call_ns = options.costs.call_ns;
     return info;
 }
 
@@ -28,6 +34,8 @@ OctreeOptions options_of(const OctreeInfoRecord& info) {
     options.min_record_indices = info.min_record_indices;
     options.count_leaf_per_batch = info.count_leaf_per_batch == 1;
     options.normal_order = info.normal_order == 1;
+    options.replica_budget = info.replica_budget;
+    options.costs = {info.index_ns, info.draw_ns, info.call_ns};
     return options;
 }
 
@@ -120,6 +128,9 @@ Result<BakedOctree> read_octree_sections(const RhoFile& file) {
     if (info.size() != 1) return file.error(kOctreeInfo, "it does not hold one record");
     if (info[0].count_leaf_per_batch > 1 || info[0].normal_order > 1)
         return file.error(kOctreeInfo, "an option is neither on nor off");
+    for (const double value : {info[0].replica_budget, info[0].index_ns, info[0].draw_ns, info[0].call_ns})
+        if (!(value >= 0.0 && std::isfinite(value)))
+            return file.error(kOctreeInfo, "a budget or cost is negative or not finite");
     if (info[0].batch_count != batches.size())
         return file.error(kOctreeBatches, "it does not hold as many batches as section OINF says");
     Result<RhOctree> octree = OctreeFile::read(file, info[0], batches.span());

@@ -7,6 +7,7 @@
 
 #include "morton_sort.h"
 #include "normal_order.h"
+#include "replicas.h"
 #include "rhview/rhoctree/rhoctree.h"
 
 namespace rhview {
@@ -24,6 +25,7 @@ class OctreeBuilder {
           max_leaf_(std::max(options.max_leaf_triangles, 1u)) {
         std::size_t first = 0;
         for (const TriangleBatch& batch : batches) {
+            scheme_.push_back(choose_scheme(batch.positions, batch.indices));
             next_index_.push_back(static_cast<std::uint32_t>(first));
             first += batch.indices.size();
         }
@@ -37,6 +39,8 @@ class OctreeBuilder {
     RhOctree build() {
         if (!triangles_.empty()) add_node(0, triangles_.size(), 0);
         add_pieces();
+        if (options_.replica_budget > 0.0 && options_.normal_order && !octree_.nodes_.own().empty())
+            ReplicaBuilder(batches_, options_, cluster_of_triangle_, octree_).build();
         return std::move(octree_);
     }
 
@@ -113,6 +117,12 @@ class OctreeBuilder {
         for (const MortonTriangle& t : part)
             for (std::uint32_t corner = 0; corner < 3; ++corner)
                 bounds.grow(batch.positions[*to++ = batch.indices[3 * std::size_t{t.triangle} + corner]]);
+        if (options_.normal_order && !batch.two_sided) {
+            const std::span<std::uint8_t> clusters =
+                std::span(cluster_of_triangle_).subspan(next / 3, part.size());
+            classify_normals(scheme_[batch_index], batch.positions, indices, clusters);
+            sorter_.sort(indices, clusters);
+        }
         next += count;
     }
 
@@ -204,6 +214,8 @@ class OctreeBuilder {
     OctreeOptions options_;
     std::size_t max_leaf_;
     RhOctree octree_;
+    std::vector<ClusterScheme> scheme_;  ///< of each batch
+    ClusterSorter sorter_;
     std::vector<std::uint8_t> cluster_of_triangle_;  ///< in base order
     std::vector<std::uint32_t> triangles_of_batch_;
     std::vector<std::uint32_t> next_index_;     ///< per batch: where its next triangle goes

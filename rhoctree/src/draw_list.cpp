@@ -57,6 +57,35 @@ void leaf_draw_list(const RhOctree& octree, const Frustum& frustum, NodeList& li
     if (!octree.nodes().empty()) traversal.add_leaves(0, frustum.mask);
 }
 
+void append_ranges_to_show(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
+                           std::vector<DrawRange>& ranges) {
+    const std::span<const OctreeNode> nodes = octree.nodes();
+    const auto is_outside = [&](const Aabb& box) {
+        PlaneMask mask = frustum.mask;
+        return classify(frustum, box, mask) == Containment::Outside;
+    };
+    for (std::uint32_t i = 0; i < nodes.size();) {
+        if (is_outside(nodes[i].bounds)) {
+            i = nodes[i].end;
+            continue;
+        }
+        const bool leaf = nodes[i].end == i + 1;
+        const std::uint32_t piece_end = leaf ? nodes[i].piece_end : nodes[i + 1].first_piece;
+        for (std::uint32_t p = nodes[i].first_piece; p < piece_end; ++p) {
+            const OctreePiece& piece = octree.pieces()[p];
+            if (is_outside(piece.bounds)) continue;
+            std::uint32_t first = piece.first_index;
+            for (const NormalCluster& cluster :
+                 octree.clusters().subspan(piece.first_cluster, piece.cluster_count)) {
+                if (!faces_away(cluster.facing, viewpoint))
+                    ranges.push_back({piece.batch, first, cluster.index_count});
+                first += cluster.index_count;
+            }
+        }
+        ++i;
+    }
+}
+
 void append_ranges(const RhOctree& octree, const NodeList& list, std::vector<DrawRange>& ranges) {
     for (const NodeId id : list.nodes) {
         const std::span<const DrawRange> node_ranges = octree.ranges(id);

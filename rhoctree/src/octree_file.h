@@ -30,8 +30,12 @@ struct OctreeInfoRecord {
     std::uint32_t min_record_indices = 0;
     std::uint32_t count_leaf_per_batch = 0;  ///< 0 or 1
     std::uint32_t normal_order = 0;          ///< 0 or 1
+    double replica_budget = 0.0;
+    double index_ns = 0.0;  ///< the costs that replicas were chosen by
+    double draw_ns = 0.0;
+    double call_ns = 0.0;
 };
-static_assert(sizeof(OctreeInfoRecord) == 32);
+static_assert(sizeof(OctreeInfoRecord) == 64);
 
 /// Section OBAT: one record per batch, in base order.
 struct OctreeBatchRecord {

@@ -40,10 +40,27 @@ Result<BakedOctree> read(const RhoBytes& file) {
     return read_octree_sections(*parsed);
 }
 
+/// From far above, where a good part of the triangles faces away: replicas pay.
+std::vector<View> views_from_above() {
+    std::vector<View> views;
+    for (const double x : {-200.0, 0.0, 150.0}) {
+        View view;
+        const glm::dvec3 eye(x, 300.0, 40.0);
+        view.camera_from_world = look_along(eye, -eye, {0.0, 1.0, 0.0});
+        view.clip_from_camera = perspective(1.0, 1.5, 0.1, 2000.0, view.clip_depth);
+        views.push_back(view);
+    }
+    return views;
+}
+
 /// Batches, options and octree of a small file with everything in it.
 struct Small {
     RandomGeometry geometry{11, 3, 300};
-    OctreeOptions options{.max_leaf_triangles = 20};
+    std::vector<View> views = views_from_above();
+    OctreeOptions options{.max_leaf_triangles = 20,
+                          .replica_budget = 0.5,
+                          .costs = {.index_ns = 100.0, .draw_ns = 3000.0},
+                          .sample_views = views};
     RhOctree octree = build_octree(geometry.batches(), options).value();
     RhoBytes file = baked(geometry, octree, options);
 };
@@ -61,6 +78,10 @@ TEST(BakedOctree, comes_back_as_it_was_and_plans_the_same) {
     EXPECT_EQ(octree.leaf_count(), small.octree.leaf_count());
     EXPECT_EQ(octree.base_index_count(), small.octree.base_index_count());
     EXPECT_EQ(back->options.max_leaf_triangles, 20u);
+    EXPECT_EQ(back->options.costs, small.options.costs);
+    EXPECT_EQ(back->options.replica_budget, 0.5);
+    EXPECT_GT(octree.replicas().size(), 0u);
+    EXPECT_EQ(octree.replicas().size(), small.octree.replicas().size());
     EXPECT_EQ(back->vertex_counts, std::vector<std::uint64_t>(3, small.geometry.positions.size()));
     EXPECT_EQ(plan_everything(octree), plan_everything(small.octree));
     // What was read can be baked again, to the same bytes.
@@ -107,6 +128,11 @@ TEST(BakedOctree, records_that_contradict_each_other_are_told_by_name) {
     const auto piece = [](std::size_t i, std::function<void(OctreePiece&)> change) {
         return [=](RhoBytes& file) { edit<OctreePiece>(file, "OPCE", i, change); };
     };
+    const auto replica = [](std::size_t i, std::function<void(OctreeReplica&)> change) {
+        return [=](RhoBytes& file) { edit<OctreeReplica>(file, "OREP", i, change); };
+    };
+    ASSERT_GT(small.octree.replicas().size(), 0u);
+    const std::uint32_t replica_index = small.octree.replicas()[0].first_index;
     const auto index = [](const char* tag, std::size_t i, std::uint32_t value) {
         return [=](RhoBytes& file) { file.set(file.offset_of(tag) + 4 * i, value); };
     };
@@ -129,7 +155,7 @@ TEST(BakedOctree, records_that_contradict_each_other_are_told_by_name) {
         {node(3, [](OctreeNode& n) { n.first_piece = 0xffffffffu; }), "out of order"},
         {node(3, [](OctreeNode& n) { n.piece_end = 0; }), "out of order"},
         {node(0, [](OctreeNode& n) { n.piece_end = 7; }), "node 0: its pieces or replicas are out of order"},
-        {node(4, [](OctreeNode& n) { n.first_replica = 1; }), "its pieces or replicas are out of order"},
+        {node(4, [](OctreeNode& n) { n.first_replica += 1; }), "its pieces or replicas are out of order"},
         {node(4, [](OctreeNode& n) { n.replica_end = 0x80000000u; }), "node 4: its pieces or replicas"},
         {range(0, [](DrawRange& r) { r.batch = BatchId{3}; }), "range 0: its batch is not in the list"},
         {range(1, [](DrawRange& r) { r.batch = BatchId{0}; }), "range"},
@@ -155,6 +181,16 @@ TEST(BakedOctree, records_that_contradict_each_other_are_told_by_name) {
              edit<NormalCluster>(file, "OCLU", 7, [](NormalCluster& c) { c.facing.apex.x = kNan; });
          },
          "cluster 7: its cone is not finite"},
+        {replica(0, [](OctreeReplica& r) { r.node = NodeId{0xffffffffu}; }),
+         "replica 0: it is not of its node's"},
+        {replica(0, [](OctreeReplica& r) { r.batch = BatchId{3}; }), "replica 0: it is not of its node's"},
+        {replica(0, [](OctreeReplica& r) { r.index_count -= 3; }), "replica 0: it is not of its node's"},
+        {replica(0, [](OctreeReplica& r) { r.first_index = 0; }), "replica 0: it does not follow"},
+        {replica(0, [](OctreeReplica& r) { r.first_cluster = 0x7fffffffu; }),
+         "replica 0: its clusters are not"},
+        {replica(0, [](OctreeReplica& r) { r.cluster_count += 1; }),
+         "replica 0: its clusters don't make it up"},
+        {index("OIDX", replica_index, 2700), "section OIDX: replica 0: an index is not below"},
         {index("OIDX", 17, 0xffffffffu), "section OIDX: batch 0: an index is not below"},
         {index("OIDX", 17, 2700), "section OIDX: batch 0: an index is not below its number of vertices"},
         {index("OBAT", 0, 3), "section OBAT: batch 0: it leaves a gap"},
@@ -165,6 +201,7 @@ TEST(BakedOctree, records_that_contradict_each_other_are_told_by_name) {
         {index("OINF", 0, 3), "the batches don't make up the base order"},
         {index("OINF", 2, 4), "as many batches as section OINF says"},
         {index("OINF", 3, 1), "another number of leaves"},
+        {index("OINF", 9, 0x7ff80000), "negative or not finite"},
         {index("OINF", 6, 2), "neither on nor off"},
     };
     for (const auto& [damage, words] : cases) {

@@ -40,11 +40,19 @@ class DrawListSolver {
     void solve(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
                const DrawCosts& costs, DrawList& list);
 
+    /// For each replica that the view meets, adds to `saving_ns` what drawing it would save against the base
+    /// order at its place, less the planning that it takes. No replica is drawn, `list` is the base order's.
+    void add_savings(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
+                     const DrawCosts& costs, DrawList& list, std::span<double> saving_ns);
+
   private:
     struct OpenReplica {
         RangeRoute::ReplicaEntry entry;
         std::uint32_t replica = 0;
     };
+
+    void walk(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
+              const DrawCosts& costs, DrawList& list, std::span<double> saving_ns);
 
     std::vector<RangeRoute> routes_;  ///< by batch
     RangeLog log_;

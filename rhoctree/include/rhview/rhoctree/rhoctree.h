@@ -18,6 +18,8 @@
 #include "rhview/base/mappable_array.h"
 #include "rhview/base/result.h"
 #include "rhview/base/triangle_batch.h"
+#include "rhview/base/view.h"
+#include "rhview/rhoctree/draw_costs.h"
 #include "rhview/rhoctree/facing.h"
 
 namespace rhview {
@@ -34,6 +36,14 @@ struct OctreeOptions {
     /// Records (pieces and normal clusters) of fewer indices are joined to their neighbours where that can
     /// be.
     std::uint32_t min_record_indices = 0;
+    /// Replicas' bytes, as a multiple of the base order's. 0: none.
+    double replica_budget = 0.0;
+    /// What replicas are chosen by.
+    DrawCosts costs{};
+    /// The cameras that replicas are chosen for, of a scene whose zero is at `scene_origin`; empty: some in
+    /// front of random triangles.
+    std::span<const View> sample_views{};
+    glm::dvec3 scene_origin{0.0};
 };
 
 /// Part of the octree's index buffer that one batch draws.
@@ -116,6 +126,7 @@ class RhOctree {
   private:
     friend class OctreeBuilder;
     friend class OctreeFile;
+    friend class ReplicaBuilder;
 
     MappableArray<OctreeNode> nodes_;
     MappableArray<DrawRange> ranges_;
