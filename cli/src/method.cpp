@@ -42,7 +42,7 @@ std::unique_ptr<FramePlanner> make_reference(const Scene& scene) {
 }
 
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
-                                      std::uint32_t max_leaf_triangles) {
+                                      std::uint32_t max_leaf_triangles, const RhOctree* baked) {
     PreparedMethod prepared;
     if (method == "none") {
         prepared.planner = make_reference(scene);
@@ -52,11 +52,15 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
         prepared.planner = std::make_unique<FrustumObjects>(static_objects(scene));
         return prepared;
     }
-    const gl::WallTimer timer;
-    Result<RhOctree> octree = build_octree(scene.triangle_batches(), {max_leaf_triangles});
-    if (!octree) return Error{scene.name + ": " + octree.error().message};
-    prepared.build_ms = timer.elapsed_ms();
-    prepared.octree = std::make_unique<RhOctree>(std::move(octree).value());
+    if (baked != nullptr) {
+        prepared.octree = std::make_unique<RhOctree>(*baked);
+    } else {
+        const gl::WallTimer timer;
+        Result<RhOctree> octree = build_octree(scene.triangle_batches(), {max_leaf_triangles});
+        if (!octree) return Error{scene.name + ": " + octree.error().message};
+        prepared.build_ms = timer.elapsed_ms();
+        prepared.octree = std::make_unique<RhOctree>(std::move(octree).value());
+    }
     if (method == "octree")
         prepared.planner = std::make_unique<OctreeLeaves>(*prepared.octree);
     else

@@ -30,9 +30,10 @@ struct PreparedMethod {
     [[nodiscard]] std::span<const std::uint32_t> static_indices() const;
 };
 
-/// Builds what `method` needs; `scene` outlives it. Leaves hold at most `max_leaf_triangles`.
+/// Builds what `method` needs; `scene` outlives it. Leaves hold at most `max_leaf_triangles`. A scene that
+/// brings its octree (`baked`) is not built again.
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
-                                      std::uint32_t max_leaf_triangles);
+                                      std::uint32_t max_leaf_triangles, const RhOctree* baked = nullptr);
 
 /// The planner of what the picture must equal, whatever the order of the static indices.
 std::unique_ptr<FramePlanner> make_reference(const Scene& scene);

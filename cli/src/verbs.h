@@ -16,6 +16,9 @@ inline constexpr int kDone = 0;
 inline constexpr int kCheckFailed = 1;
 inline constexpr int kBadInput = 2;
 
+/// Triangles per octree leaf where the user names no number.
+inline constexpr std::uint32_t kDefaultLeaf = 4096;
+
 struct InfoOptions {
     std::string scene;
     std::optional<std::filesystem::path> json;
@@ -32,7 +35,7 @@ struct WalkOptions {
     std::string set;
     int frames = 120;
     int warmup = 8;
-    std::uint32_t leaf = 4096;
+    std::optional<std::uint32_t> leaf;  ///< else the scene's own, or `kDefaultLeaf`
     bool check = false;
     int check_every = 1;
     int images_every = 30;
@@ -42,9 +45,20 @@ struct WalkOptions {
     std::optional<std::filesystem::path> images;
 };
 
+struct BakeOptions {
+    std::string scene;
+    std::filesystem::path output;
+    std::uint32_t leaf = kDefaultLeaf;
+    double replica_budget = 1.0;
+    std::optional<std::filesystem::path> profile;
+    std::string set;
+    std::optional<std::filesystem::path> path;
+};
+
 /// Each verb prints its answer and returns the exit code, or an error that ends the program with `kBadInput`.
 Result<int> run_scenes();
 Result<int> run_info(const InfoOptions& options);
 Result<int> run_walk(const WalkOptions& options);
+Result<int> run_bake(const BakeOptions& options);
 
 }  // namespace rhview::cli

@@ -127,9 +127,13 @@ std::string to_json(const WalkReport& report) {
     json["leaf"] = report.build.nodes ? Json(report.leaf) : Json(nullptr);
     json["frames"] = report.frames.size();
     json["size"] = {report.width, report.height};
-    json["build"] = {{"ms", or_null(report.build.ms)},          {"nodes", or_null(report.build.nodes)},
-                     {"leaves", or_null(report.build.leaves)},  {"replica_bytes", report.build.replica_bytes},
-                     {"index_bytes", report.build.index_bytes}, {"vertex_bytes", report.build.vertex_bytes}};
+    json["build"] = {{"ms", or_null(report.build.ms)},
+                     {"load_ms", or_null(report.build.load_ms)},
+                     {"nodes", or_null(report.build.nodes)},
+                     {"leaves", or_null(report.build.leaves)},
+                     {"replica_bytes", report.build.replica_bytes},
+                     {"index_bytes", report.build.index_bytes},
+                     {"vertex_bytes", report.build.vertex_bytes}};
     json["summary"] = summary_json(report);
     json["per_frame"] = Json::array();
     for (const FrameRecord& f : report.frames)
@@ -168,9 +172,10 @@ std::string to_table(const WalkReport& report) {
         report.scene.dynamic_objects > 0 ? fmt::format(", {} dynamic objects", report.scene.dynamic_objects)
                                          : "");
     if (report.build.nodes)
-        table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, built in {:.0f} ms\n",
+        table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, {} in {:.0f} ms\n",
                              *report.build.nodes, *report.build.leaves, report.leaf,
-                             report.build.ms.value_or(0.0));
+                             report.build.load_ms ? "loaded" : "built",
+                             report.build.load_ms.value_or(report.build.ms.value_or(0.0)));
     table += fmt::format("{}: {} frames of {}x{} on {}, timed by the {}\n\n", report.method,
                          report.frames.size(), report.width, report.height, report.device.renderer,
                          report.device.timer == "gpu" ? "GPU and the wall clock" : "wall clock");

@@ -234,8 +234,9 @@ class Walk {
     std::vector<float> reference_depths_;
 };
 
-WalkReport describe(const WalkOptions& options, const Scene& scene, const PreparedMethod& method,
+WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const PreparedMethod& method,
                     const gl::DeviceInfo& device, PictureSize size) {
+    const Scene& scene = loaded.scene;
     WalkReport report;
     report.scene = {scene.name,
                     scene.static_triangles(),
@@ -254,20 +255,29 @@ WalkReport describe(const WalkOptions& options, const Scene& scene, const Prepar
     report.method = options.method;
     report.mode = options.mode;
     report.submission = options.submission;
-    report.leaf = options.leaf;
+    report.leaf = options.leaf.value_or(kDefaultLeaf);
+    if (const std::optional<BakedParts>& baked = loaded.baked) {
+        report.build.load_ms = baked->load_ms;
+        report.leaf = baked->octree.options.max_leaf_triangles;
+    }
     report.width = size.width;
     report.height = size.height;
     return report;
 }
 
-Result<SceneAndPath> load(const WalkOptions& options) {
+Result<LoadedScene> load(const WalkOptions& options) {
     std::optional<CameraPath> path;
     if (options.path) {
         Result<CameraPath> from_file = load_camera_path(*options.path);
         if (!from_file) return from_file.error();
         path = std::move(from_file).value();
     }
-    Result<SceneAndPath> loaded = load_scene(options.scene);
+    Result<LoadedScene> loaded = load_scene(options.scene);
+    if (loaded && loaded->baked && options.leaf)
+        return Error{fmt::format(
+            "--leaf {}: {} brings its octree, with leaves of at most {} triangles; bake it again with "
+            "another --leaf",
+            *options.leaf, options.scene, loaded->baked->octree.options.max_leaf_triangles)};
     if (loaded && path) loaded->path = std::move(*path);
     return loaded;
 }
@@ -287,13 +297,15 @@ Result<int> run_walk(const WalkOptions& options) {
     Result<gl::Context> context = gl::Context::create_headless();
     if (!context) return context.error();
     progress.say("loading " + options.scene);
-    const Result<SceneAndPath> loaded = load(options);
+    const Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
     progress.say("building");
-    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, options.leaf);
+    Result<PreparedMethod> method =
+        prepare_method(options.method, loaded->scene, options.leaf.value_or(kDefaultLeaf),
+                       loaded->baked ? &loaded->baked->octree.octree : nullptr);
     if (!method) return method.error();
 
-    WalkReport report = describe(options, loaded->scene, *method, context->device(), *size);
+    WalkReport report = describe(options, *loaded, *method, context->device(), *size);
     if (const std::optional<UserConstants>& known = *constants)
         report.profile = {known->profile.c0_ns, known->profile.c1_ns, known->profile.c3_ns,
                           known->profile.query_ns, known->source};

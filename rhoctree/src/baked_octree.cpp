@@ -138,7 +138,8 @@ Result<BakedOctree> read_octree_sections(const RhoFile& file) {
     BakedOctree baked;
     baked.octree = std::move(octree).value();
     baked.options = options_of(info[0]);
-    for (const OctreeBatchRecord& batch : batches) baked.vertex_counts.push_back(batch.vertex_count);
+    for (const OctreeBatchRecord& batch : batches)
+        baked.batches.push_back({batch.index_count, batch.vertex_count});
     return baked;
 }
 

@@ -20,12 +20,17 @@
 
 namespace rhview {
 
+/// What a baked octree was built of.
+struct BakedBatch {
+    std::uint32_t index_count = 0;
+    std::uint64_t vertex_count = 0;  ///< every index is below
+};
+
 struct BakedOctree {
     RhOctree octree;
     /// What it was built with: the fields that a file can hold.
     OctreeOptions options;
-    /// Of each batch: every index of it is below.
-    std::vector<std::uint64_t> vertex_counts;
+    std::vector<BakedBatch> batches;
 };
 
 /// Adds the sections of `octree`, built of `batches` with `options`. The octree stays as it is until the

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
+#include "constants.h"
+#include "progress.h"
+#include "rhview/base/version.h"
+#include "rhview/gl/timer.h"
+#include "scene_source.h"
+#include "verbs.h"
+
+namespace rhview::cli {
+namespace {
+
+Result<OctreeOptions> octree_options(const BakeOptions& options) {
+    OctreeOptions octree;
+    octree.max_leaf_triangles = options.leaf;
+    octree.replica_budget = options.replica_budget;
+    const Result<std::optional<UserConstants>> constants = read_constants(options.profile, options.set);
+    if (!constants) return constants.error();
+    if (const std::optional<UserConstants>& known = *constants)
+        octree.costs = {known->profile.c1_ns, known->profile.c3_ns, 0.0};
+    return octree;
+}
+
+Result<LoadedScene> load(const BakeOptions& options) {
+    std::optional<CameraPath> path;
+    if (options.path) {
+        Result<CameraPath> from_file = load_camera_path(*options.path);
+        if (!from_file) return from_file.error();
+        path = std::move(from_file).value();
+    }
+    Result<LoadedScene> loaded = load_scene(options.scene);
+    if (loaded && path) loaded->path = std::move(*path);
+    return loaded;
+}
+
+}  // namespace
+
+Result<int> run_bake(const BakeOptions& options) {
+    if (!is_baked_name(options.output))
+        return Error{fmt::format("-o {}: a baked file is known by its name; let it end in .rho",
+                                 options.output.string())};
+    const Result<OctreeOptions> octree_settings = octree_options(options);
+    if (!octree_settings) return octree_settings.error();
+    Result<RhoWriter> writer = RhoWriter::create(options.output);
+    if (!writer) return writer.error();
+
+    Progress progress;
+    progress.say("loading " + options.scene);
+    const Result<LoadedScene> loaded = load(options);
+    if (!loaded) return loaded.error();
+    const Scene& scene = loaded->scene;
+    progress.say("building");
+    const gl::WallTimer build_timer;
+    const std::vector<TriangleBatch> batches = scene.triangle_batches();
+    const Result<RhOctree> octree = build_octree(batches, *octree_settings);
+    if (!octree) return Error{scene.name + ": " + octree.error().message};
+    const double build_ms = build_timer.elapsed_ms();
+
+    progress.say("writing");
+    const gl::WallTimer write_timer;
+    // Baked anew, a scene keeps the name of its first source.
+    const std::string source = loaded->baked ? loaded->baked->provenance.source : options.scene;
+    add_scene_sections(*writer, *loaded, {source, fmt::format("rhview {}", kVersion)});
+    add_octree_sections(*writer, *octree, batches, *octree_settings);
+    const Result<std::uint64_t> bytes = writer->finish();
+    if (!bytes) return bytes.error();
+    const double write_ms = write_timer.elapsed_ms();
+    progress.clear();
+
+    constexpr double kMebibyte = 1024.0 * 1024.0;
+    fmt::print("{}\n", options.output.string());
+    fmt::print("  scene       {}: {} triangles, {:.1f} MiB of vertices, {:.1f} MiB of indices\n", scene.name,
+               scene.static_triangles() + scene.dynamic_triangles(),
+               static_cast<double>(scene.vertex_bytes()) / kMebibyte,
+               static_cast<double>(scene.index_bytes()) / kMebibyte);
+    fmt::print(
+        "  octree      {} nodes, {} leaves of at most {} triangles, {} replicas of {:.1f} MiB; built in "
+        "{:.0f} ms\n",
+        octree->nodes().size(), octree->leaf_count(), options.leaf, octree->replicas().size(),
+        static_cast<double>(octree->replica_bytes()) / kMebibyte, build_ms);
+    fmt::print("  file        {:.1f} MiB, written in {:.0f} ms\n", static_cast<double>(*bytes) / kMebibyte,
+               write_ms);
+    return kDone;
+}
+
+}  // namespace rhview::cli
