@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "constants.h"
+#include "method.h"
 #include "progress.h"
 #include "rhview/base/version.h"
 #include "rhview/gl/timer.h"
@@ -13,15 +14,13 @@
 namespace rhview::cli {
 namespace {
 
-Result<OctreeOptions> octree_options(const BakeOptions& options) {
-    OctreeOptions octree;
-    octree.max_leaf_triangles = options.leaf;
-    octree.replica_budget = options.replica_budget;
+Result<MethodOptions> method_options(const BakeOptions& options) {
+    MethodOptions method{options.leaf, options.replica_budget, {}};
     const Result<std::optional<UserConstants>> constants = read_constants(options.profile, options.set);
     if (!constants) return constants.error();
     if (const std::optional<UserConstants>& known = *constants)
-        octree.costs = {known->profile.c1_ns, known->profile.c3_ns, 0.0};
-    return octree;
+        method.costs = {known->profile.c1_ns, known->profile.c3_ns, 0.0};
+    return method;
 }
 
 Result<LoadedScene> load(const BakeOptions& options) {
@@ -42,8 +41,11 @@ Result<int> run_bake(const BakeOptions& options) {
     if (!is_baked_name(options.output))
         return Error{fmt::format("-o {}: a baked file is known by its name; let it end in .rho",
                                  options.output.string())};
-    const Result<OctreeOptions> octree_settings = octree_options(options);
-    if (!octree_settings) return octree_settings.error();
+    if (options.method != "octree" && options.method != "rhview-seed" && options.method != "rhview")
+        return Error{fmt::format("--method {}: has no octree to bake; write octree, rhview-seed or rhview",
+                                 options.method)};
+    const Result<MethodOptions> settings = method_options(options);
+    if (!settings) return settings.error();
     Result<RhoWriter> writer = RhoWriter::create(options.output);
     if (!writer) return writer.error();
 
@@ -53,9 +55,10 @@ Result<int> run_bake(const BakeOptions& options) {
     if (!loaded) return loaded.error();
     const Scene& scene = loaded->scene;
     progress.say("building");
+    const OctreeOptions octree_options = octree_options_of(options.method, scene, *settings);
     const gl::WallTimer build_timer;
     const std::vector<TriangleBatch> batches = scene.triangle_batches();
-    const Result<RhOctree> octree = build_octree(batches, *octree_settings);
+    const Result<RhOctree> octree = build_octree(batches, octree_options);
     if (!octree) return Error{scene.name + ": " + octree.error().message};
     const double build_ms = build_timer.elapsed_ms();
 
@@ -64,7 +67,7 @@ Result<int> run_bake(const BakeOptions& options) {
     // Baked anew, a scene keeps the name of its first source.
     const std::string source = loaded->baked ? loaded->baked->provenance.source : options.scene;
     add_scene_sections(*writer, *loaded, {source, fmt::format("rhview {}", kVersion)});
-    add_octree_sections(*writer, *octree, batches, *octree_settings);
+    add_octree_sections(*writer, *octree, batches, octree_options);
     const Result<std::uint64_t> bytes = writer->finish();
     if (!bytes) return bytes.error();
     const double write_ms = write_timer.elapsed_ms();
@@ -79,8 +82,8 @@ Result<int> run_bake(const BakeOptions& options) {
     fmt::print(
         "  octree      {} nodes, {} leaves of at most {} triangles, {} replicas of {:.1f} MiB; built in "
         "{:.0f} ms\n",
-        octree->nodes().size(), octree->leaf_count(), options.leaf, octree->replicas().size(),
-        static_cast<double>(octree->replica_bytes()) / kMebibyte, build_ms);
+        octree->nodes().size(), octree->leaf_count(), octree_options.max_leaf_triangles,
+        octree->replicas().size(), static_cast<double>(octree->replica_bytes()) / kMebibyte, build_ms);
     fmt::print("  file        {:.1f} MiB, written in {:.0f} ms\n", static_cast<double>(*bytes) / kMebibyte,
                write_ms);
     return kDone;

@@ -36,6 +36,18 @@ void add_info(CLI::App& app, InfoOptions& options) {
     info->add_option("--json", options.json, "Write it as JSON")->type_name("FILE");
 }
 
+void add_octree_options(CLI::App& verb, std::optional<std::uint32_t>& leaf, double& replica_budget) {
+    verb.add_option("--leaf", leaf,
+                    "Triangles per octree leaf, at most; default: rhview chooses, the others take 4096")
+        ->type_name("N")
+        ->check(CLI::Range(1u, 4'000'000'000u));
+    verb.add_option("--replica-budget", replica_budget,
+                    "Bytes of rhview's replicas, as a multiple of the source indices' bytes")
+        ->type_name("R")
+        ->check(CLI::Range(0.0, 1'000.0))
+        ->capture_default_str();
+}
+
 void add_walk(CLI::App& app, WalkOptions& options) {
     CLI::App* walk = app.add_subcommand("walk", "One culling method along a camera path, headless");
     walk->add_option("SCENE", options.scene, kSceneHelp)->required();
@@ -59,9 +71,7 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->check(CLI::Range(0, 1'000'000))
         ->capture_default_str();
     walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
-    walk->add_option("--leaf", options.leaf,
-                     fmt::format("Triangles per octree leaf, at most [{}]", kDefaultLeaf))
-        ->check(CLI::Range(1u, 4'000'000'000u));
+    add_octree_options(*walk, options.leaf, options.replica_budget);
     walk->add_option("--submission", options.submission,
                      "plain: a call per range; multi: a multi-draw per batch")
         ->capture_default_str();
@@ -87,16 +97,12 @@ void add_bake(CLI::App& app, BakeOptions& options) {
     CLI::App* bake = app.add_subcommand("bake", "Build a scene's octree once and save both");
     bake->add_option("SCENE", options.scene, kSceneHelp)->required();
     bake->add_option("-o,--output", options.output, "The baked file")->type_name("FILE.rho")->required();
-    bake->add_option("--leaf", options.leaf, "Triangles per octree leaf, at most")
-        ->check(CLI::Range(1u, 4'000'000'000u))
+    bake->add_option("--method", options.method, "Whose octree: octree, rhview-seed or rhview")
+        ->type_name("M")
         ->capture_default_str();
-    bake->add_option("--replica-budget", options.replica_budget,
-                     "Replicas' bytes, as a multiple of the source indices' bytes")
-        ->type_name("R")
-        ->check(CLI::Range(0.0, 100.0))
-        ->capture_default_str();
+    add_octree_options(*bake, options.leaf, options.replica_budget);
     bake->add_option("--profile", options.profile,
-                     "Timing constants (rhview.profile/1) that replicas are chosen by")
+                     "Timing constants (rhview.profile/1) that leaves and replicas are chosen by")
         ->type_name("FILE");
     bake->add_option("--set", options.set, "Timing constants in ns: c1 per index, c3 per draw call")
         ->type_name("c1=…,c3=…");

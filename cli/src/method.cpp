@@ -7,6 +7,7 @@
 #include "rhview/baselines/frustum_objects.h"
 #include "rhview/baselines/octree_leaves.h"
 #include "rhview/gl/timer.h"
+#include "rhview/pipeline/rhview_planner.h"
 #include "rhview/pipeline/seed_planner.h"
 
 namespace rhview::cli {
@@ -26,6 +27,19 @@ std::vector<StaticObject> static_objects(const Scene& scene) {
 
 }  // namespace
 
+// The rivals' octree is the paper's: leaves in source order, no replicas.
+OctreeOptions octree_options_of(std::string_view method, const Scene& scene, const MethodOptions& options) {
+    OctreeOptions result;
+    if (method == "rhview") {
+        result = choose_octree_options(options.costs, 3 * scene.static_triangles());
+        result.replica_budget = options.replica_budget;
+    } else {
+        result.normal_order = false;
+    }
+    if (options.max_leaf_triangles) result.max_leaf_triangles = *options.max_leaf_triangles;
+    return result;
+}
+
 std::vector<std::string> method_names() {
     return {"none", "frustum", "octree", "rhview-seed", "rhview"};
 }
@@ -42,7 +56,7 @@ std::unique_ptr<FramePlanner> make_reference(const Scene& scene) {
 }
 
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
-                                      std::uint32_t max_leaf_triangles, const RhOctree* baked) {
+                                      const MethodOptions& options, const BakedOctree* baked) {
     PreparedMethod prepared;
     if (method == "none") {
         prepared.planner = make_reference(scene);
@@ -53,18 +67,23 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
         return prepared;
     }
     if (baked != nullptr) {
-        prepared.octree = std::make_unique<RhOctree>(*baked);
+        prepared.max_leaf_triangles = baked->options.max_leaf_triangles;
+        prepared.octree = std::make_unique<RhOctree>(baked->octree);
     } else {
+        const OctreeOptions octree_options = octree_options_of(method, scene, options);
         const gl::WallTimer timer;
-        Result<RhOctree> octree = build_octree(scene.triangle_batches(), {max_leaf_triangles});
+        Result<RhOctree> octree = build_octree(scene.triangle_batches(), octree_options);
         if (!octree) return Error{scene.name + ": " + octree.error().message};
         prepared.build_ms = timer.elapsed_ms();
+        prepared.max_leaf_triangles = octree_options.max_leaf_triangles;
         prepared.octree = std::make_unique<RhOctree>(std::move(octree).value());
     }
     if (method == "octree")
         prepared.planner = std::make_unique<OctreeLeaves>(*prepared.octree);
-    else
+    else if (method == "rhview-seed")
         prepared.planner = std::make_unique<SeedPlanner>(*prepared.octree);
+    else
+        prepared.planner = std::make_unique<RhviewPlanner>(*prepared.octree, options.costs);
     return prepared;
 }
 

@@ -12,7 +12,7 @@
 
 #include "rhview/base/result.h"
 #include "rhview/pipeline/frame_planner.h"
-#include "rhview/rhoctree/rhoctree.h"
+#include "rhview/rhoctree/baked_octree.h"
 #include "rhview/scenes/scene.h"
 
 namespace rhview::cli {
@@ -25,15 +25,26 @@ struct PreparedMethod {
     std::unique_ptr<RhOctree> octree;  ///< null where the method needs none
     std::unique_ptr<FramePlanner> planner;
     std::optional<double> build_ms;
+    std::optional<std::uint32_t> max_leaf_triangles;
 
     /// The order of the static indices that the plans refer to; empty: the scene's own.
     [[nodiscard]] std::span<const std::uint32_t> static_indices() const;
 };
 
-/// Builds what `method` needs; `scene` outlives it. Leaves hold at most `max_leaf_triangles`. A scene that
-/// brings its octree (`baked`) is not built again.
+/// What the user says about building a method; absent is the method's default.
+struct MethodOptions {
+    std::optional<std::uint32_t> max_leaf_triangles;  ///< `rhview`: chosen from the costs; else 4096
+    double replica_budget = 1.0;                      ///< of `rhview`, times the source's index bytes
+    DrawCosts costs;                                  ///< what `rhview` plans by
+};
+
+/// What `method` has its octree built with.
+OctreeOptions octree_options_of(std::string_view method, const Scene& scene, const MethodOptions& options);
+
+/// Builds what `method` needs; `scene` outlives it. A scene that brings its octree (`baked`) is not built
+/// again.
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
-                                      std::uint32_t max_leaf_triangles, const RhOctree* baked = nullptr);
+                                      const MethodOptions& options, const BakedOctree* baked = nullptr);
 
 /// The planner of what the picture must equal, whatever the order of the static indices.
 std::unique_ptr<FramePlanner> make_reference(const Scene& scene);

@@ -16,9 +16,6 @@ inline constexpr int kDone = 0;
 inline constexpr int kCheckFailed = 1;
 inline constexpr int kBadInput = 2;
 
-/// Triangles per octree leaf where the user names no number.
-inline constexpr std::uint32_t kDefaultLeaf = 4096;
-
 struct InfoOptions {
     std::string scene;
     std::optional<std::filesystem::path> json;
@@ -35,7 +32,8 @@ struct WalkOptions {
     std::string set;
     int frames = 120;
     int warmup = 8;
-    std::optional<std::uint32_t> leaf;  ///< else the scene's own, or `kDefaultLeaf`
+    std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
+    double replica_budget = 1.0;
     bool check = false;
     int check_every = 1;
     int images_every = 30;
@@ -48,7 +46,8 @@ struct WalkOptions {
 struct BakeOptions {
     std::string scene;
     std::filesystem::path output;
-    std::uint32_t leaf = kDefaultLeaf;
+    std::string method = "rhview";
+    std::optional<std::uint32_t> leaf;
     double replica_budget = 1.0;
     std::optional<std::filesystem::path> profile;
     std::string set;

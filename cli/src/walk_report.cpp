@@ -124,13 +124,14 @@ std::string to_json(const WalkReport& report) {
     json["method"] = report.method;
     json["mode"] = report.mode;
     json["submission"] = report.submission;
-    json["leaf"] = report.build.nodes ? Json(report.leaf) : Json(nullptr);
+    json["leaf"] = or_null(report.leaf);
     json["frames"] = report.frames.size();
     json["size"] = {report.width, report.height};
     json["build"] = {{"ms", or_null(report.build.ms)},
                      {"load_ms", or_null(report.build.load_ms)},
                      {"nodes", or_null(report.build.nodes)},
                      {"leaves", or_null(report.build.leaves)},
+                     {"replicas", or_null(report.build.replicas)},
                      {"replica_bytes", report.build.replica_bytes},
                      {"index_bytes", report.build.index_bytes},
                      {"vertex_bytes", report.build.vertex_bytes}};
@@ -173,9 +174,13 @@ std::string to_table(const WalkReport& report) {
                                          : "");
     if (report.build.nodes)
         table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, {} in {:.0f} ms\n",
-                             *report.build.nodes, *report.build.leaves, report.leaf,
+                             *report.build.nodes, *report.build.leaves, report.leaf.value_or(0),
                              report.build.load_ms ? "loaded" : "built",
                              report.build.load_ms.value_or(report.build.ms.value_or(0.0)));
+    if (report.build.replica_bytes > 0)
+        table += fmt::format(
+            "replicas: {}, {:.2f} times the source's index bytes\n", report.build.replicas.value_or(0),
+            static_cast<double>(report.build.replica_bytes) / static_cast<double>(report.build.index_bytes));
     table += fmt::format("{}: {} frames of {}x{} on {}, timed by the {}\n\n", report.method,
                          report.frames.size(), report.width, report.height, report.device.renderer,
                          report.device.timer == "gpu" ? "GPU and the wall clock" : "wall clock");

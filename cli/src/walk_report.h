@@ -45,6 +45,7 @@ struct WalkReport {
         std::optional<double> load_ms;  ///< of a baked file, which is not built
         std::optional<std::uint64_t> nodes;
         std::optional<std::uint64_t> leaves;
+        std::optional<std::uint64_t> replicas;
         std::uint64_t replica_bytes = 0;
         std::uint64_t index_bytes = 0;
         std::uint64_t vertex_bytes = 0;
@@ -59,7 +60,7 @@ struct WalkReport {
     std::string method;
     std::string mode;
     std::string submission;
-    std::uint32_t leaf = 0;
+    std::optional<std::uint32_t> leaf;
     int width = 0;
     int height = 0;
     std::vector<FrameRecord> frames;

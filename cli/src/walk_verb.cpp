@@ -249,17 +249,16 @@ WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const
     if (method.octree != nullptr) {
         report.build.nodes = method.octree->nodes().size();
         report.build.leaves = method.octree->leaf_count();
+        report.build.replicas = method.octree->replicas().size();
+        report.build.replica_bytes = method.octree->replica_bytes();
     }
     report.build.index_bytes = scene.index_bytes();
     report.build.vertex_bytes = scene.vertex_bytes();
     report.method = options.method;
     report.mode = options.mode;
     report.submission = options.submission;
-    report.leaf = options.leaf.value_or(kDefaultLeaf);
-    if (const std::optional<BakedParts>& baked = loaded.baked) {
-        report.build.load_ms = baked->load_ms;
-        report.leaf = baked->octree.options.max_leaf_triangles;
-    }
+    report.leaf = method.max_leaf_triangles;
+    if (loaded.baked) report.build.load_ms = loaded.baked->load_ms;
     report.width = size.width;
     report.height = size.height;
     return report;
@@ -300,9 +299,11 @@ Result<int> run_walk(const WalkOptions& options) {
     const Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
     progress.say("building");
-    Result<PreparedMethod> method =
-        prepare_method(options.method, loaded->scene, options.leaf.value_or(kDefaultLeaf),
-                       loaded->baked ? &loaded->baked->octree.octree : nullptr);
+    MethodOptions method_options{options.leaf, options.replica_budget, {}};
+    if (const std::optional<UserConstants>& known = *constants)
+        method_options.costs = {known->profile.c1_ns, known->profile.c3_ns, 0.0};
+    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, method_options,
+                                                   loaded->baked ? &loaded->baked->octree : nullptr);
     if (!method) return method.error();
 
     WalkReport report = describe(options, *loaded, *method, context->device(), *size);

@@ -62,7 +62,11 @@ Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const st
     SceneBuffers buffers;
     buffers.origin_ = scene.origin;
     glBindVertexArray(0);
-    const std::size_t index_bytes = scene.index_bytes();
+    std::size_t index_bytes = scene.index_bytes();
+    if (!static_indices.empty()) {
+        for (const SceneBatch& batch : scene.batches) index_bytes -= std::span(batch.indices).size_bytes();
+        index_bytes += static_indices.size_bytes();
+    }
     buffers.indices_ = make_buffer(GL_ELEMENT_ARRAY_BUFFER, index_bytes);
     std::size_t offset = 0;
     if (static_indices.empty())

@@ -23,6 +23,7 @@ void FramePlan::clear() {
     objects.clear();
     chosen.clear();
     nodes_visited = 0;
+    predicted_ns.reset();
 }
 
 std::uint64_t plan_hash(const FramePlan& plan, std::uint64_t seed) {

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "rhview/pipeline/seed_planner.h"
+#include "rhview/pipeline/rhview_planner.h"
 
 namespace {
 
@@ -46,14 +46,17 @@ int main() {
     build_houses(positions, indices);
 
     // [snippet]
-    // Once: your triangles, one batch per material. Vertices stay; indices come back in a new order.
+    // Once: what drawing costs, and your triangles, one batch per material. Vertices stay; indices come back
+    // in a new order.
+    const rhview::DrawCosts costs{.index_ns = 0.25, .draw_ns = 2000};
     const rhview::TriangleBatch batch{rhview::MaterialId{0}, positions, indices};
-    const auto octree = rhview::build_octree({&batch, 1});
+    const auto octree =
+        rhview::build_octree({&batch, 1}, rhview::choose_octree_options(costs, indices.size()));
     if (!octree) return std::puts(octree.error().message.c_str()), 1;
     upload_index_buffer(octree->indices());
 
     // Per view and frame: the camera goes in, draw calls come out.
-    rhview::SeedPlanner planner(*octree);
+    rhview::RhviewPlanner planner(*octree, costs);
     rhview::FramePlan plan;
     rhview::View view;
     view.camera_from_world = rhview::look_along({0, 2, 0}, {0, 0, -1}, {0, 1, 0});

@@ -41,8 +41,9 @@ class EveryMethodBaked : public Bake, public testing::WithParamInterface<const c
 TEST_P(EveryMethodBaked, plans_and_draws_as_from_the_source) {
     for (const char* scene :
          {"town:size=96,materials=4", "farm:instances=6,mesh=2000", "indoor:rooms=3,floors=2"}) {
-        bake(std::string(scene) + " -o a.rho --leaf 512");
         const std::string method = std::string("--method ") + GetParam();
+        const bool has_octree = method != "--method none" && method != "--method frustum";
+        bake(std::string(scene) + " -o a.rho --leaf 512 " + (has_octree ? method : ""));
         const nlohmann::json source = walk_json(scene + kWalk + "--leaf 512 " + method);
         const nlohmann::json baked = walk_json("a.rho" + kWalk + method);
         EXPECT_EQ(baked["summary"]["plan_hash"], source["summary"]["plan_hash"]) << scene;
@@ -59,15 +60,26 @@ TEST_P(EveryMethodBaked, plans_and_draws_as_from_the_source) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodBaked,
-                         testing::Values("none", "frustum", "octree", "rhview-seed"), [](const auto& test) {
+                         testing::Values("none", "frustum", "octree", "rhview-seed", "rhview"),
+                         [](const auto& test) {
                              std::string name = test.param;
                              std::ranges::replace(name, '-', '_');
                              return name;
                          });
 
+TEST_F(Bake, any_method_draws_all_from_another_ones_octree) {
+    bake("city:blocks=3 -o a.rho");
+    for (const char* method : {"octree", "rhview-seed", "rhview"}) {
+        const nlohmann::json walk = walk_json("a.rho" + kWalk + "--method " + method);
+        EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0) << method;
+        EXPECT_EQ(walk["summary"]["missing_pixels"]["checked_frames"], 8) << method;
+        EXPECT_GT(walk["summary"]["indices"]["max"], 0) << method;
+    }
+}
+
 TEST_F(Bake, pixels_are_those_of_the_source) {
     bake("town:size=96 -o a.rho");
-    for (const char* method : {"none", "frustum", "rhview-seed"}) {
+    for (const char* method : {"none", "frustum", "rhview"}) {
         const std::string options =
             std::string(" --frames 2 --warmup 0 --size 160x90 --images-every 1 --method ") + method;
         ASSERT_EQ(run("walk town:size=96" + options + " --images source").code, 0);
@@ -128,6 +140,7 @@ TEST_F(Bake, bad_usage_is_told_and_leaves_nothing) {
     refuse("bake soup -o no/such/folder/a.rho", "no/such/folder/a.rho");
     refuse("bake twon -o a.rho", "twon");
     refuse("bake soup -o a.rho --leaf 0", "--leaf");
+    refuse("bake soup -o a.rho --method none", "--method none: has no octree to bake");
     refuse("bake soup -o a.rho --replica-budget -1", "--replica-budget");
     refuse("bake soup -o a.rho --set c1=1", "both c1 and c3");
     refuse("bake gone.rho -o a.rho", "gone.rho: there is no such file");
@@ -139,7 +152,7 @@ TEST_F(Bake, bad_usage_is_told_and_leaves_nothing) {
 
 TEST_F(Bake, a_leaf_size_of_the_users_asks_for_baking_again) {
     bake("soup:triangles=1000 -o a.rho");
-    refuse("walk a.rho --leaf 64", "leaves of at most 4096 triangles");
+    refuse("walk a.rho --leaf 64", "brings its octree, with leaves of at most ");
 }
 
 TEST_F(Bake, damaged_files_end_in_one_sentence_and_exit_code_2) {

@@ -78,13 +78,14 @@ TEST_F(Walk, methods_without_an_octree_report_no_build) {
     EXPECT_TRUE(walk["build"]["nodes"].is_null());
 }
 
-TEST_F(Walk, equal_walks_have_equal_plans_and_rhview_is_still_the_seeds_rule) {
+TEST_F(Walk, equal_walks_have_equal_plans_and_other_methods_others) {
     const auto hash = [&](const std::string& options) {
         return walk_json(kSmallTown + options)["summary"]["plan_hash"];
     };
     const nlohmann::json seed = hash(" --method rhview-seed");
     EXPECT_EQ(seed, hash(" --method rhview-seed --check --submission multi"));
-    EXPECT_EQ(seed, hash(" --method rhview"));
+    EXPECT_NE(seed, hash(" --method rhview"));
+    EXPECT_EQ(hash(""), hash(" --method rhview --submission multi"));
     EXPECT_NE(seed, hash(" --method octree --leaf 64"));
 }
 
@@ -93,6 +94,19 @@ TEST_F(Walk, seeds_rule_draws_the_triangles_of_the_leaves_with_fewer_calls) {
     const nlohmann::json seed = walk_json(kSmallTown + " --leaf 64 --method rhview-seed")["summary"];
     EXPECT_EQ(octree["indices"], seed["indices"]);
     EXPECT_LT(seed["draw_calls"]["mean"].get<double>(), 0.5 * octree["draw_calls"]["mean"].get<double>());
+}
+
+TEST_F(Walk, rhview_costs_less_than_the_seeds_rule_by_the_constants_it_is_given) {
+    for (const char* constants : {" --set c1=0.25,c3=2000", " --set c1=1,c3=10"}) {
+        const nlohmann::json seed = walk_json(kSmallTown + constants + " --method rhview-seed")["summary"];
+        const nlohmann::json walk = walk_json(kSmallTown + constants + " --check");
+        EXPECT_LT(walk["summary"]["predicted_ms"]["mean"], seed["predicted_ms"]["mean"]);
+        EXPECT_LE(walk["build"]["replica_bytes"], walk["build"]["index_bytes"]);
+        EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0);
+        const nlohmann::json none = walk_json(kSmallTown + constants + " --replica-budget 0");
+        EXPECT_EQ(none["build"]["replica_bytes"], 0);
+        EXPECT_EQ(none["build"]["replicas"], 0);
+    }
 }
 
 TEST_F(Walk, multi_draw_makes_one_call_per_batch) {

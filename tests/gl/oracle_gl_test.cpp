@@ -11,6 +11,7 @@
 #include "rhview/baselines/draw_everything.h"
 #include "rhview/baselines/frustum_objects.h"
 #include "rhview/baselines/octree_leaves.h"
+#include "rhview/pipeline/rhview_planner.h"
 #include "uniform.h"
 
 namespace rhview::gl {
@@ -69,6 +70,17 @@ std::vector<Method> every_method(const Scene& scene) {
             planner = std::make_unique<SeedPlanner>(*octree);
         else
             planner = std::make_unique<OctreeLeaves>(*octree);
+        methods.push_back({std::move(planner), std::move(octree), std::move(buffers)});
+    }
+    // By few costs each: gaps bridged, and replicas drawn instead.
+    for (const DrawCosts& costs : {DrawCosts{1, 0, 0}, DrawCosts{10, 500, 0}, DrawCosts{10, 20000, 0}}) {
+        OctreeOptions options;
+        options.max_leaf_triangles = 40;
+        options.replica_budget = 1.0;
+        options.costs = costs;
+        auto octree = std::make_unique<RhOctree>(build_octree(scene.triangle_batches(), options).value());
+        SceneBuffers buffers = SceneBuffers::upload(scene, octree->indices()).value();
+        auto planner = std::make_unique<RhviewPlanner>(*octree, costs);
         methods.push_back({std::move(planner), std::move(octree), std::move(buffers)});
     }
     return methods;

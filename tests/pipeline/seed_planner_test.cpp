@@ -6,32 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
-#include <new>
+#include <cmath>
 
+#include "allocations.h"
 #include "random_geometry.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Counts every allocation of this program: the promise is that a warm planner makes none. Not inlined: GCC
-// would see malloc's memory given to a delete expression, and warn.
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    ++allocations;
-    return std::malloc(size == 0 ? 1 : size);
-}
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    if (void* memory = operator new(size, std::nothrow)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 namespace rhview {
 namespace {
@@ -94,9 +72,9 @@ TEST(SeedPlanner, warm_planner_allocates_nothing) {
     SeedPlanner planner(octree);
     FramePlan plan;
     for (int i = 0; i < 60; ++i) planner.plan(input_at(0.1 * i, boxes), plan);
-    const long before = allocations;
+    const long before = allocations();
     for (int i = 0; i < 60; ++i) planner.plan(input_at(0.1 * i, boxes), plan);
-    EXPECT_EQ(allocations - before, 0);
+    EXPECT_EQ(allocations() - before, 0);
     EXPECT_FALSE(plan.opaque.empty());
 }
 

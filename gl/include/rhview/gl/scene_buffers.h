@@ -35,8 +35,8 @@ struct ObjectInstance {
 
 class SceneBuffers {
   public:
-    /// Copies the scene. `static_indices` replaces the order of the static batches (batch after batch, as
-    /// `RhOctree::indices`); empty keeps the scene's own order. An error when the driver's memory is too
+    /// Copies the scene. `static_indices` replaces those of the static batches (`RhOctree::indices`: batch
+    /// after batch, then replicas); empty keeps the scene's own. An error when the driver's memory is too
     /// small.
     static Result<SceneBuffers> upload(const Scene& scene,
                                        std::span<const std::uint32_t> static_indices = {});

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "rhview/base/ids.h"
@@ -21,6 +22,8 @@ struct FramePlan {
     /// What the planner chose, by its own ids (`FramePlanner::bounds_of`): for pictures and statistics.
     std::vector<std::uint32_t> chosen;
     std::uint64_t nodes_visited = 0;
+    /// What the draws of `opaque` cost by the planner's model, without the objects; absent where it has none.
+    std::optional<double> predicted_ns;
 
     /// Empties the plan and keeps its memory.
     void clear();

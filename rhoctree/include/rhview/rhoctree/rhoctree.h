@@ -139,10 +139,16 @@ class RhOctree {
     std::size_t leaf_count_ = 0;
 };
 
+/// Options for the cheapest draw lists (`DrawListSolver`) at these costs, of batches with `index_count`
+/// indices in all: leaves no finer than a draw is worth and than the planning time of their visit, records
+/// joined up to an eighth of a draw, replicas up to the bytes of the base order. Derivation:
+/// src/choose_options.cpp.
+OctreeOptions choose_octree_options(const DrawCosts& costs, std::uint64_t index_count);
+
 /// Builds the octree of `batches`; batch i is `BatchId{i}`. No batch, or batches without triangles, give no
 /// node. Deterministic. Errors name the batch and triangle: an index out of range, a corner that is not
 /// finite, an index count that is no multiple of three, more than 2^32 - 1 indices. Cost: O(n) in triangles
-/// (radix sort), 32 bytes of scratch per triangle.
+/// (radix sort), 32 bytes of scratch per triangle; with replicas O(n log n), see docs/draw-list.md.
 Result<RhOctree> build_octree(std::span<const TriangleBatch> batches, const OctreeOptions& options = {});
 
 }  // namespace rhview

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// The planner `rhview`: frustum and back-face culling, and the cheapest draw list of what is left.
+#pragma once
+
+#include "rhview/pipeline/frame_planner.h"
+#include "rhview/rhoctree/draw_list.h"
+#include "rhview/rhoctree/rhoctree.h"
+
+namespace rhview {
+
+class RhviewPlanner final : public FramePlanner {
+  public:
+    /// `octree` outlives the planner. `costs` may be others than those it was built for: the list is the
+    /// cheapest by these, over the leaves and replicas that are there.
+    RhviewPlanner(const RhOctree& octree, const DrawCosts& costs) : octree_(octree), costs_(costs) {}
+    RhviewPlanner(RhOctree&&, const DrawCosts&) = delete;
+
+    void plan(const FrameInput& input, FramePlan& plan) override;
+    [[nodiscard]] Aabb bounds_of(std::uint32_t chosen) const override;
+
+    [[nodiscard]] const DrawCosts& costs() const { return costs_; }
+    /// From the next frame on.
+    void set_costs(const DrawCosts& costs) { costs_ = costs; }
+    /// What the last frame's static part was made of.
+    [[nodiscard]] const DrawList& draw_list() const { return list_; }
+
+  private:
+    const RhOctree& octree_;
+    DrawCosts costs_;
+    DrawListSolver solver_;
+    DrawList list_;
+};
+
+}  // namespace rhview

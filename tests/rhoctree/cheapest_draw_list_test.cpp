@@ -1,0 +1,360 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+//
+// Whole draw lists of random octrees: what they cost, against the min-plus matrices and the simple rules, and
+// that every front-facing triangle in view is there.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "balls.h"
+#include "random_geometry.h"
+#include "rhview/rhoctree/draw_list.h"
+#include "rhview/rhoctree/normal_clusters.h"
+
+namespace rhview {
+namespace {
+
+View random_view(Uniform& uniform) {
+    const glm::dvec3 eye(uniform(-120, 120), uniform(-30, 30), uniform(-120, 120));
+    const glm::dvec3 forward(uniform(-1, 1), uniform(-0.4, 0.4), uniform(-1, 1));
+    return {look_along(eye, forward, {0, 1, 0}),
+            perspective(uniform(0.1, 2.0), 1.6, 0.1, uniform(20, 400), ClipDepth::NegativeOneToOne),
+            ClipDepth::NegativeOneToOne};
+}
+
+OctreeOptions options_of(std::uint32_t leaf, std::uint32_t record, double budget,
+                         const DrawCosts& costs = {}) {
+    OctreeOptions options;
+    options.max_leaf_triangles = leaf;
+    options.min_record_indices = record;
+    options.replica_budget = budget;
+    options.costs = costs;
+    return options;
+}
+
+double price(std::span<const DrawRange> ranges, const DrawCosts& costs) {
+    double total_ns = 0.0;
+    std::set<BatchId> batches;
+    for (const DrawRange& range : ranges) {
+        total_ns += costs.draw_ns + costs.index_ns * range.index_count;
+        batches.insert(range.batch);
+    }
+    return total_ns + costs.call_ns * static_cast<double>(batches.size());
+}
+
+/// C[i][o]: the least cost to get past something when a base range is open (1) or not (0) before and after.
+using Matrix = std::array<std::array<double, 2>, 2>;
+
+Matrix product(const Matrix& a, const Matrix& b) {
+    Matrix c;
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t o = 0; o < 2; ++o) c[i][o] = std::min(a[i][0] + b[0][o], a[i][1] + b[1][o]);
+    return c;
+}
+
+/// The recursion of min-plus matrices, without any short cut: every node and cluster is looked at.
+class MatrixOracle {
+  public:
+    MatrixOracle(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
+                 const DrawCosts& costs, BatchId batch)
+        : octree_(octree), frustum_(frustum), viewpoint_(viewpoint), costs_(costs), batch_(batch) {}
+
+    [[nodiscard]] double least() const {
+        const Matrix c = of_node(0);
+        return std::min(c[0][0], c[0][1]);
+    }
+
+  private:
+    [[nodiscard]] bool is_outside(const Aabb& box) const {
+        PlaneMask mask = frustum_.mask;
+        return classify(frustum_, box, mask) == Containment::Outside;
+    }
+    [[nodiscard]] Matrix hidden(double count) const {
+        const double s = costs_.index_ns * count;
+        return {{{0.0, costs_.draw_ns + s}, {0.0, s}}};
+    }
+    [[nodiscard]] Matrix shown(double count) const {
+        const double s = costs_.index_ns * count;
+        return {{{costs_.draw_ns + s, costs_.draw_ns + s}, {s, s}}};
+    }
+    [[nodiscard]] Matrix of_clusters(std::uint32_t first, std::uint32_t count) const {
+        Matrix c = hidden(0);
+        for (const NormalCluster& cluster : octree_.clusters().subspan(first, count))
+            c = product(c, faces_away(cluster.facing, viewpoint_) ? hidden(cluster.index_count)
+                                                                  : shown(cluster.index_count));
+        return c;
+    }
+    [[nodiscard]] Matrix of_node(std::uint32_t id) const {
+        const OctreeNode& node = octree_.nodes()[id];
+        const auto ranges = octree_.ranges(NodeId{id});
+        const auto range = std::ranges::find(ranges, batch_, &DrawRange::batch);
+        if (range == ranges.end()) return hidden(0);
+        if (is_outside(node.bounds)) return hidden(range->index_count);
+        const auto pieces = octree_.pieces().subspan(node.first_piece, node.piece_end - node.first_piece);
+        const auto piece = std::ranges::find(pieces, range->first_index, &OctreePiece::first_index);
+        Matrix c = hidden(0);
+        if (piece != pieces.end() && piece->batch == batch_ && piece->index_count == range->index_count) {
+            c = is_outside(piece->bounds) ? hidden(piece->index_count)
+                                          : of_clusters(piece->first_cluster, piece->cluster_count);
+        } else {
+            for (std::uint32_t child = id + 1; child < node.end; child = octree_.nodes()[child].end)
+                c = product(c, of_node(child));
+        }
+        for (const OctreeReplica& replica : octree_.replicas()) {
+            if (replica.node != NodeId{id} || replica.batch != batch_) continue;
+            const Matrix r = of_clusters(replica.first_cluster, replica.cluster_count);
+            for (std::size_t i = 0; i < 2; ++i) c[i][0] = std::min(c[i][0], std::min(r[0][0], r[0][1]));
+        }
+        return c;
+    }
+
+    const RhOctree& octree_;
+    const Frustum& frustum_;
+    const Viewpoint& viewpoint_;
+    DrawCosts costs_;
+    BatchId batch_;
+};
+
+struct Case {
+    std::uint32_t leaf;
+    std::uint32_t record;
+    double budget;
+    DrawCosts costs;
+};
+
+class CheapestDrawList : public testing::TestWithParam<Case> {};
+class CheapestDrawListOfWholeLeaves : public CheapestDrawList {};
+
+TEST_P(CheapestDrawList, equals_the_min_plus_matrices_and_costs_what_it_says) {
+    const auto [leaf, record, budget, costs] = GetParam();
+    const Balls balls(91, 3, 60, 150);
+    const RhOctree octree = build_octree(balls.batches(), options_of(leaf, record, budget, costs)).value();
+    Uniform uniform(92);
+    DrawListSolver solver;
+    DrawList list;
+    for (int i = 0; i < 60; ++i) {
+        const View view = random_view(uniform);
+        const Frustum frustum = make_frustum(view);
+        const Viewpoint viewpoint = make_viewpoint(view);
+        solver.solve(octree, frustum, viewpoint, costs, list);
+        double expected = 0.0;
+        std::set<BatchId> drawn;
+        for (const DrawRange& range : list.ranges) drawn.insert(range.batch);
+        for (std::uint32_t b = 0; b < 3; ++b)
+            expected += MatrixOracle(octree, frustum, viewpoint, costs, BatchId{b}).least();
+        expected += costs.call_ns * static_cast<double>(drawn.size());
+        EXPECT_NEAR(list.predicted_ns, expected, 1e-9 * expected);
+        EXPECT_NEAR(list.predicted_ns, price(list.ranges, costs), 1e-9 * expected);
+    }
+}
+
+TEST_P(CheapestDrawList, shows_every_front_facing_triangle_in_view) {
+    const auto [leaf, record, budget, costs] = GetParam();
+    const Balls balls(93, 3, 50, 150);
+    const std::vector<TriangleBatch> batches = balls.batches();
+    const RhOctree octree = build_octree(batches, options_of(leaf, record, budget, costs)).value();
+    Uniform uniform(94);
+    DrawListSolver solver;
+    DrawList list;
+    std::size_t must = 0, of_all = 0;
+    for (int i = 0; i < 40; ++i) {
+        const View view = random_view(uniform);
+        const Frustum frustum = make_frustum(view);
+        solver.solve(octree, frustum, make_viewpoint(view), costs, list);
+        // Corners are not shared: a triangle is known by its first index.
+        std::vector<bool> drawn(balls.positions.size(), false);
+        for (const DrawRange& range : list.ranges)
+            for (std::uint32_t k = 0; k < range.index_count; k += 3)
+                drawn[octree.indices()[range.first_index + k]] = true;
+        const glm::dvec3 eye = view.eye();
+        for (const TriangleBatch& batch : batches) {
+            for (std::size_t t = 0; t < batch.indices.size(); t += 3) {
+                const glm::vec3& a = balls.positions[batch.indices[t]];
+                const glm::vec3& b = balls.positions[batch.indices[t + 1]];
+                const glm::vec3& c = balls.positions[batch.indices[t + 2]];
+                Aabb box;
+                for (const glm::vec3& corner : {a, b, c}) box.grow(corner);
+                PlaneMask mask = frustum.mask;
+                const glm::dvec3 normal = face_normal(a, b, c);
+                const bool front = batch.two_sided || glm::dot(normal, eye - glm::dvec3(a)) > 0.0;
+                if (!front || classify(frustum, box, mask) == Containment::Outside) continue;
+                ++must;
+                ASSERT_TRUE(drawn[batch.indices[t]]) << "view " << i << ", triangle " << t;
+            }
+        }
+        of_all += balls.positions.size() / 3;
+    }
+    EXPECT_GT(must, of_all / 50);
+    EXPECT_LT(must, of_all / 2);
+}
+
+TEST_P(CheapestDrawListOfWholeLeaves, never_costs_more_than_the_simple_rules) {
+    const auto [leaf, record, budget, costs] = GetParam();
+    const Balls balls(95, 3, 60, 150);
+    const RhOctree octree = build_octree(balls.batches(), options_of(leaf, record, budget, costs)).value();
+    Uniform uniform(96);
+    DrawListSolver solver;
+    DrawList list;
+    NodeList nodes;
+    double total = 0.0, seed_total = 0.0;
+    for (int i = 0; i < 100; ++i) {
+        const View view = random_view(uniform);
+        const Frustum frustum = make_frustum(view);
+        solver.solve(octree, frustum, make_viewpoint(view), costs, list);
+        std::vector<DrawRange> seed, leaves;
+        seed_draw_list(octree, frustum, nodes);
+        append_ranges(octree, nodes, seed);
+        leaf_draw_list(octree, frustum, nodes);
+        append_ranges(octree, nodes, leaves);
+        const auto everything = octree.ranges(NodeId{0});
+        const double limit = 1.0 + 1e-12;
+        EXPECT_LE(list.predicted_ns, limit * price(seed, costs));
+        EXPECT_LE(list.predicted_ns, limit * price(leaves, costs));
+        EXPECT_LE(list.predicted_ns, limit * price(everything, costs));
+        total += list.predicted_ns;
+        seed_total += price(seed, costs);
+    }
+    EXPECT_LT(total, 0.95 * seed_total);
+}
+
+TEST_P(CheapestDrawList, is_the_same_from_any_solver_and_after_any_frame) {
+    const auto [leaf, record, budget, costs] = GetParam();
+    const Balls balls(97, 3, 60, 150);
+    const RhOctree octree = build_octree(balls.batches(), options_of(leaf, record, budget, costs)).value();
+    const RhOctree again = build_octree(balls.batches(), options_of(leaf, record, budget, costs)).value();
+    Uniform uniform(98);
+    DrawListSolver warm;
+    DrawList a, b;
+    for (int i = 0; i < 30; ++i) {
+        const View view = random_view(uniform);
+        warm.solve(octree, make_frustum(view), make_viewpoint(view), costs, a);
+        DrawListSolver fresh;
+        fresh.solve(again, make_frustum(view), make_viewpoint(view), costs, b);
+        EXPECT_EQ(a.ranges, b.ranges);
+        EXPECT_EQ(a.predicted_ns, b.predicted_ns);
+        EXPECT_TRUE(std::ranges::is_sorted(a.ranges, {}, &DrawRange::batch));
+    }
+}
+
+const std::array<Case, 7> kWholeLeaves{Case{1, 0, 0.0, {1, 1, 0}},     Case{20, 0, 0.0, {1, 60, 0}},
+                                       Case{20, 0, 1.0, {1, 60, 0}},   Case{20, 0, 1.0, {1, 60, 500}},
+                                       Case{20, 0, 1.0, {1, 0, 0}},    Case{20, 0, 1.0, {0, 1, 0}},
+                                       Case{500, 0, 1.0, {1, 200, 10}}};
+// Where records are joined, leaves are finer than what a list can tell apart.
+const std::array<Case, 3> kJoinedRecords{Case{50, 60, 1.0, {0.25, 50, 0}}, Case{50, 60, 0.4, {0.25, 50, 0}},
+                                         Case{100000, 30, 1.0, {1, 100, 0}}};
+
+INSTANTIATE_TEST_SUITE_P(WholeLeaves, CheapestDrawList, testing::ValuesIn(kWholeLeaves));
+INSTANTIATE_TEST_SUITE_P(JoinedRecords, CheapestDrawList, testing::ValuesIn(kJoinedRecords));
+INSTANTIATE_TEST_SUITE_P(All, CheapestDrawListOfWholeLeaves, testing::ValuesIn(kWholeLeaves));
+
+TEST(DrawListSolver, free_draws_leave_out_exactly_what_need_not_be_shown) {
+    const Balls balls(99, 3, 60, 150);
+    const RhOctree octree = build_octree(balls.batches(), options_of(20, 30, 0.0)).value();
+    Uniform uniform(100);
+    DrawListSolver solver;
+    DrawList list;
+    std::size_t left_out = 0;
+    for (int i = 0; i < 60; ++i) {
+        const View view = random_view(uniform);
+        solver.solve(octree, make_frustum(view), make_viewpoint(view), {1, 0, 0}, list);
+        std::vector<DrawRange> expected, joined;
+        append_ranges_to_show(octree, make_frustum(view), make_viewpoint(view), expected);
+        std::ranges::sort(expected, {}, &DrawRange::first_index);
+        for (const DrawRange& range : expected) {
+            if (!joined.empty() && joined.back().batch == range.batch &&
+                joined.back().first_index + joined.back().index_count == range.first_index)
+                joined.back().index_count += range.index_count;
+            else
+                joined.push_back(range);
+        }
+        EXPECT_EQ(list.ranges, joined);
+        left_out += joined.size();
+    }
+    EXPECT_GT(left_out, 1000u);
+}
+
+TEST(DrawListSolver, replicas_lower_the_cost_where_much_faces_away) {
+    // Triangles that face anywhere, wherever they are: no leaf faces away as a whole. Seen from far enough
+    // above, a third of a node's clusters do.
+    const RandomGeometry geometry(101, 1, 16000);
+    const auto view_from_above = [](Uniform& uniform) {
+        const glm::dvec3 eye(uniform(-300, 300), uniform(150, 400), uniform(-300, 300));
+        return View{look_along(eye, glm::dvec3(uniform(-60, 60), 0, uniform(-60, 60)) - eye, {0, 1, 0}),
+                    perspective(1.0, 1.6, 0.1, 2000.0, ClipDepth::NegativeOneToOne),
+                    ClipDepth::NegativeOneToOne};
+    };
+    // So dear that planning costs nothing beside it.
+    const DrawCosts costs{100, 30000, 0};
+    std::vector<View> samples;
+    Uniform uniform(102);
+    for (int i = 0; i < 50; ++i) samples.push_back(view_from_above(uniform));
+    OctreeOptions options = options_of(40, 30, 1.0, costs);
+    options.sample_views = samples;
+    const RhOctree with = build_octree(geometry.batches(), options).value();
+    options.replica_budget = 0.0;
+    const RhOctree without = build_octree(geometry.batches(), options).value();
+    ASSERT_GT(with.replicas().size(), 0u);
+    ASSERT_EQ(without.replicas().size(), 0u);
+    DrawListSolver solver;
+    DrawList list;
+    double cost = 0.0, cost_without = 0.0;
+    std::uint32_t drawn = 0;
+    for (int i = 0; i < 100; ++i) {
+        const View view = view_from_above(uniform);
+        solver.solve(with, make_frustum(view), make_viewpoint(view), costs, list);
+        cost += list.predicted_ns;
+        drawn += list.replicas_drawn;
+        const double with_ns = list.predicted_ns;
+        solver.solve(without, make_frustum(view), make_viewpoint(view), costs, list);
+        cost_without += list.predicted_ns;
+        EXPECT_LE(with_ns, list.predicted_ns * (1.0 + 1e-12));
+    }
+    EXPECT_GE(drawn, 100u);
+    EXPECT_LT(cost, 0.9 * cost_without);
+}
+
+TEST(DrawListSolver, a_mirrored_view_skips_nothing_for_facing_away) {
+    const Balls balls(103, 3, 40, 200);
+    const RhOctree octree = build_octree(balls.batches(), options_of(30, 0, 1.0, {1, 0, 0})).value();
+    Uniform uniform(104);
+    DrawListSolver solver;
+    DrawList list;
+    for (int i = 0; i < 20; ++i) {
+        View view = random_view(uniform);
+        view.clip_from_camera = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),
+                                           glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1)) *
+                                view.clip_from_camera;
+        const Frustum frustum = make_frustum(view);
+        solver.solve(octree, frustum, make_viewpoint(view), {1, 0, 0}, list);
+        std::uint64_t drawn = 0, in_view = 0;
+        for (const DrawRange& range : list.ranges) drawn += range.index_count;
+        for (const OctreePiece& piece : octree.pieces()) {
+            PlaneMask mask = frustum.mask;
+            if (classify(frustum, piece.bounds, mask) != Containment::Outside) in_view += piece.index_count;
+        }
+        EXPECT_EQ(drawn, in_view);
+    }
+}
+
+TEST(DrawListSolver, an_empty_octree_and_a_view_of_nothing_give_no_range) {
+    DrawListSolver solver;
+    DrawList list;
+    const View view{look_along({0, 0, 1000}, {0, 0, 1}, {0, 1, 0}),
+                    perspective(1.0, 1.0, 1.0, 5000.0, ClipDepth::ZeroToOne), ClipDepth::ZeroToOne};
+    const RhOctree octree = build_octree(Balls(105, 2, 5, 100).batches(), options_of(30, 0, 1.0)).value();
+    for (const RhOctree* one : {&octree, static_cast<const RhOctree*>(nullptr)}) {
+        solver.solve(one ? *one : RhOctree(), make_frustum(view), make_viewpoint(view), {1, 10, 100}, list);
+        EXPECT_TRUE(list.ranges.empty());
+        EXPECT_EQ(list.predicted_ns, 0.0);
+    }
+}
+
+}  // namespace
+}  // namespace rhview
