@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "build_progress.h"
 #include "rhview/rhoctree/draw_list.h"
 #include "rhview/rhoctree/rhoctree.h"
 
@@ -25,8 +26,13 @@ class ReplicaBuilder {
   public:
     /// `cluster_of_triangle`: in base order.
     ReplicaBuilder(std::span<const TriangleBatch> batches, const OctreeOptions& options,
-                   std::span<const std::uint8_t> cluster_of_triangle, RhOctree& octree)
-        : batches_(batches), options_(options), cluster_of_triangle_(cluster_of_triangle), octree_(octree) {}
+                   std::span<const std::uint8_t> cluster_of_triangle, RhOctree& octree,
+                   BuildProgress& progress)
+        : batches_(batches),
+          options_(options),
+          cluster_of_triangle_(cluster_of_triangle),
+          octree_(octree),
+          progress_(progress) {}
 
     void build();
 
@@ -44,6 +50,7 @@ class ReplicaBuilder {
     const OctreeOptions& options_;
     std::span<const std::uint8_t> cluster_of_triangle_;
     RhOctree& octree_;
+    BuildProgress& progress_;
     std::vector<double> saving_ns_;  ///< per candidate: mean over the sample views, less its planning
     std::vector<bool> chosen_;
 };

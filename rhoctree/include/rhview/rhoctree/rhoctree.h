@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "rhview/base/aabb.h"
@@ -44,6 +45,9 @@ struct OctreeOptions {
     /// front of random triangles.
     std::span<const View> sample_views{};
     glm::dvec3 scene_origin{0.0};
+    /// Called now and then with the share of the build that is done, 0 to 1 and never falling, by any of the
+    /// build's threads but one at a time. False stops the build, which then returns an error.
+    std::function<bool(double)> progress{};
 };
 
 /// Part of the octree's index buffer that one batch draws.
@@ -147,8 +151,10 @@ OctreeOptions choose_octree_options(const DrawCosts& costs, std::uint64_t index_
 
 /// Builds the octree of `batches`; batch i is `BatchId{i}`. No batch, or batches without triangles, give no
 /// node. Deterministic. Errors name the batch and triangle: an index out of range, a corner that is not
-/// finite, an index count that is no multiple of three, more than 2^32 - 1 indices. Cost: O(n) in triangles
-/// (radix sort), 32 bytes of scratch per triangle; with replicas O(n log n), see docs/draw-list.md.
+/// finite, an index count that is no multiple of three, more than 2^32 - 1 indices, or a build that was
+/// stopped. Threads: oneTBB's, as many as the caller's arena has; the octree is the same with any number.
+/// Cost: O(n) in triangles (radix sort), 32 bytes of scratch per triangle; with replicas O(n log n), see
+/// docs/draw-list.md.
 Result<RhOctree> build_octree(std::span<const TriangleBatch> batches, const OctreeOptions& options = {});
 
 }  // namespace rhview
