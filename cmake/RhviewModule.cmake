@@ -38,6 +38,10 @@ function(rhview_private_options target)
         -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
       target_link_options(${target} PUBLIC -fsanitize=address,undefined)
     endif()
+    if(RHVIEW_FUZZ)
+      # Counters for the fuzzer to see new paths by; its own loop is linked into its targets only.
+      target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+    endif()
   endif()
 endfunction()
 

@@ -12,6 +12,8 @@ set -euo pipefail
 packages=(
     # tools
     g++ cmake ninja-build git python3 pkg-config clang-format
+    # the fuzzer: Clang, its sanitizers and libFuzzer
+    clang libclang-rt-dev
     # the core
     libglm-dev libtbb-dev
     # the timing model, to build it only

@@ -10,7 +10,7 @@
 
 #include "morton_sort.h"
 #include "octree_file.h"
-#include "rhview/base/largest_index.h"
+#include "rhview/base/index_check.h"
 
 namespace rhview {
 namespace {

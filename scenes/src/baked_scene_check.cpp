@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "rhview/base/largest_index.h"
+#include "rhview/base/index_check.h"
 
 namespace rhview {
 namespace {
