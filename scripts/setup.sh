@@ -26,6 +26,8 @@ packages=(
     libcli11-dev libfmt-dev
     # tests and benchmarks
     libgtest-dev libbenchmark-dev
+    # plots
+    python3-matplotlib
 )
 
 fail() {

@@ -7,6 +7,7 @@
 #include "method.h"
 #include "progress.h"
 #include "rhview/base/version.h"
+#include "rhview/gl/context.h"
 #include "rhview/gl/timer.h"
 #include "scene_source.h"
 #include "verbs.h"
@@ -14,13 +15,21 @@
 namespace rhview::cli {
 namespace {
 
-Result<MethodOptions> method_options(const BakeOptions& options) {
-    MethodOptions method{options.leaf, options.replica_budget, {}};
-    const Result<std::optional<UserConstants>> constants = read_constants(options.profile, options.set);
-    if (!constants) return constants.error();
-    if (const std::optional<UserConstants>& known = *constants)
-        method.costs = {known->profile.c1_ns, known->profile.c3_ns, 0.0};
-    return method;
+// Quick calibrations draw at this size where the user names none.
+constexpr int kWidth = 1280;
+constexpr int kHeight = 720;
+
+/// The costs that `rhview` builds by, chosen as a walk would.
+Result<DrawCosts> costs_of(const BakeOptions& options, const WantedConstants& wanted,
+                           const LoadedScene& loaded) {
+    if (options.method != "rhview") return DrawCosts();
+    const Result<gl::Context> context = gl::Context::create_headless();
+    if (!context) return context.error();
+    const Result<ChosenConstants> chosen =
+        choose_constants(wanted, options.scene, loaded, context->device(), kWidth, kHeight);
+    if (!chosen) return chosen.error();
+    if (!chosen->warning.empty()) fmt::print(stderr, "rhview: warning: {}\n", chosen->warning);
+    return chosen->constants ? draw_costs(chosen->constants->profile, false) : DrawCosts();
 }
 
 Result<LoadedScene> load(const BakeOptions& options) {
@@ -44,8 +53,8 @@ Result<int> run_bake(const BakeOptions& options) {
     if (options.method != "octree" && options.method != "rhview-seed" && options.method != "rhview")
         return Error{fmt::format("--method {}: has no octree to bake; write octree, rhview-seed or rhview",
                                  options.method)};
-    const Result<MethodOptions> settings = method_options(options);
-    if (!settings) return settings.error();
+    const Result<WantedConstants> wanted = parse_constants(options.profile, options.set);
+    if (!wanted) return wanted.error();
     Result<RhoWriter> writer = RhoWriter::create(options.output);
     if (!writer) return writer.error();
 
@@ -54,8 +63,12 @@ Result<int> run_bake(const BakeOptions& options) {
     const Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded->scene;
+    progress.say("choosing timing constants");
+    const Result<DrawCosts> costs = costs_of(options, *wanted, *loaded);
+    if (!costs) return costs.error();
     progress.say("building");
-    const OctreeOptions octree_options = octree_options_of(options.method, scene, *settings);
+    const OctreeOptions octree_options =
+        octree_options_of(options.method, scene, {options.leaf, options.replica_budget, *costs});
     const gl::WallTimer build_timer;
     const std::vector<TriangleBatch> batches = scene.triangle_batches();
     const Result<RhOctree> octree = build_octree(batches, octree_options);

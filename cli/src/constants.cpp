@@ -5,16 +5,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <set>
 #include <string_view>
+
+#include "profile_store.h"
+#include "rhview/gl/calibration.h"
 
 namespace rhview::cli {
 namespace {
 
-/// Applies one `name=value`; the name, for the caller to know what was set.
-Result<std::string> apply(std::string_view assignment, TimingProfile& profile) {
+constexpr std::array<std::string_view, 4> kNames{"c0", "c1", "c3", "query"};
+
+Result<std::pair<std::string, double>> parse_assignment(std::string_view assignment) {
     const std::size_t equals = assignment.find('=');
     const std::string name(assignment.substr(0, equals));
     const std::string_view text = equals == std::string_view::npos ? "" : assignment.substr(equals + 1);
@@ -24,45 +29,121 @@ Result<std::string> apply(std::string_view assignment, TimingProfile& profile) {
         value < 0.0)
         return Error{fmt::format(
             "--set {}: write name=value with a value of 0 or more nanoseconds, as in c1=0.25", assignment)};
-    if (name == "c0")
-        profile.c0_ns = value;
-    else if (name == "c1")
-        profile.c1_ns = value;
-    else if (name == "c3")
-        profile.c3_ns = value;
-    else if (name == "query")
-        profile.query_ns = value;
-    else
+    if (std::ranges::find(kNames, name) == kNames.end())
         return Error{
             fmt::format("--set {}: unknown constant; the constants are c0, c1, c3 and query", assignment)};
-    return name;
+    return std::pair(name, value);
+}
+
+void apply(const std::vector<std::pair<std::string, double>>& set, TimingProfile& profile) {
+    for (const auto& [name, value] : set) {
+        if (name == "c0") profile.c0_ns = value;
+        if (name == "c1") profile.c1_ns = value;
+        if (name == "c3") profile.c3_ns = value;
+        if (name == "query") profile.query_ns = value;
+    }
+}
+
+gl::CalibrationOptions quick_options(ClipDepth clip_depth) {
+    gl::CalibrationOptions options;
+    options.frames = 60;
+    options.rounds = 2;
+    options.longest_s = 1.0;
+    options.largest_frame_ms = 20.0;
+    options.clip_depth = clip_depth;
+    return options;
+}
+
+Result<ChosenConstants> calibrate_quickly(const SceneAndPath& loaded, const gl::DeviceInfo& device, int width,
+                                          int height) {
+    Result<gl::RenderTarget> target = gl::RenderTarget::create(width, height);
+    if (!target) return Error{"--size: " + target.error().message};
+    Result<gl::Executor> executor = gl::Executor::create();
+    if (!executor) return executor.error();
+    Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(loaded.scene);
+    if (!buffers) return buffers.error();
+    const gl::CalibrationSubject subject{&loaded.scene,         &*buffers,          {},
+                                         loaded.path.fov_y_deg, loaded.path.near_m, loaded.path.far_m};
+    const ClipDepth clip_depth =
+        device.clip_control ? ClipDepth::ReversedZeroToOne : ClipDepth::NegativeOneToOne;
+    Result<gl::Calibration> calibration =
+        gl::calibrate(std::span(&subject, 1), device, *executor, *target, quick_options(clip_depth));
+    ChosenConstants chosen;
+    if (!calibration) {
+        chosen.why_not = calibration.error().message;
+        return chosen;
+    }
+    chosen.constants = {calibration->profile, "quick",
+                        fmt::format("calibrated quickly with this scene in {:.1f} s (rhview calibrate "
+                                    "measures better, and once)",
+                                    calibration->seconds)};
+    return chosen;
 }
 
 }  // namespace
 
-Result<std::optional<UserConstants>> read_constants(const std::optional<std::filesystem::path>& file,
-                                                    const std::string& set) {
-    if (!file && set.empty()) return std::optional<UserConstants>();
-    UserConstants constants;
-    constants.source = set.empty() ? "file" : "set";
+bool WantedConstants::are_complete() const {
+    const auto has = [&](std::string_view name) {
+        return std::ranges::any_of(set, [&](const auto& assignment) { return assignment.first == name; });
+    };
+    return has("c1") && has("c3");
+}
+
+Result<WantedConstants> parse_constants(const std::optional<std::filesystem::path>& file,
+                                        const std::string& set) {
+    WantedConstants wanted;
     if (file) {
         Result<TimingProfile> profile = load_profile(*file);
         if (!profile) return profile.error();
-        constants.profile = std::move(profile).value();
+        wanted.profile = std::move(profile).value();
+        wanted.file = *file;
     }
-    std::set<std::string> names;
     for (std::size_t begin = 0; begin < set.size();) {
         const std::size_t end = std::min(set.find(',', begin), set.size());
-        const Result<std::string> name =
-            apply(std::string_view(set).substr(begin, end - begin), constants.profile);
-        if (!name) return name.error();
-        if (!names.insert(*name).second) return Error{fmt::format("--set {}: {} is there twice", set, *name)};
+        Result<std::pair<std::string, double>> assignment =
+            parse_assignment(std::string_view(set).substr(begin, end - begin));
+        if (!assignment) return assignment.error();
+        if (std::ranges::any_of(wanted.set, [&](const auto& a) { return a.first == assignment->first; }))
+            return Error{fmt::format("--set {}: {} is there twice", set, assignment->first)};
+        wanted.set.push_back(std::move(assignment).value());
         begin = end + 1;
     }
-    if (!file && (!names.contains("c1") || !names.contains("c3")))
-        return Error{
-            fmt::format("--set {}: without --profile both c1 and c3 are needed, as in c1=0.25,c3=2000", set)};
-    return std::optional<UserConstants>(std::move(constants));
+    return wanted;
+}
+
+Result<ChosenConstants> choose_constants(const WantedConstants& wanted, const std::string& scene_spec,
+                                         const SceneAndPath& loaded, const gl::DeviceInfo& device, int width,
+                                         int height) {
+    ChosenConstants chosen;
+    if (wanted.profile) {
+        chosen.constants = {*wanted.profile, "file", wanted.file.string()};
+        if (!is_of_device(*wanted.profile, device))
+            chosen.warning =
+                fmt::format("{}: measured on another device ({}), this is {}: used because you named it",
+                            wanted.file.string(), wanted.profile->renderer, device.renderer);
+    } else if (wanted.are_complete()) {
+        chosen.constants.emplace();
+    } else if (std::optional<SavedProfile> saved = find_saved_profile(scene_spec, device, chosen.warning)) {
+        chosen.warning.clear();
+        chosen.constants = {std::move(saved->profile), "file", saved->file.string()};
+    } else {
+        const std::string warning = chosen.warning;
+        Result<ChosenConstants> quick = calibrate_quickly(loaded, device, width, height);
+        if (!quick) return quick.error();
+        chosen = std::move(quick).value();
+        chosen.warning = warning;
+    }
+    if (!wanted.set.empty() && chosen.constants) {
+        apply(wanted.set, chosen.constants->profile);
+        chosen.constants->source = "set";
+        chosen.constants->told += chosen.constants->told.empty() ? "as set" : ", changed by --set";
+    }
+    return chosen;
+}
+
+DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw) {
+    if (multi_draw) return {profile.c1_ns, profile.sub_draw_ns.value_or(profile.c3_ns), profile.c3_ns};
+    return {profile.c1_ns, profile.c3_ns + profile.sub_draw_ns.value_or(0.0), 0.0};
 }
 
 }  // namespace rhview::cli

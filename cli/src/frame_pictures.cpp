@@ -4,7 +4,10 @@
 #include "frame_pictures.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
 namespace rhview::cli {
 namespace {
@@ -12,7 +15,7 @@ namespace {
 constexpr double kMargin = 1.05;
 constexpr glm::vec3 kPaper(0.96f, 0.96f, 0.94f);
 constexpr glm::vec3 kNotDrawn(0.30f, 0.31f, 0.33f);
-constexpr glm::vec3 kDrawn(1.0f, 0.45f, 0.08f);
+constexpr glm::vec3 kBridged(0.70f, 0.10f, 0.85f);
 constexpr glm::vec3 kBoxes(0.10f, 0.25f, 0.75f);
 constexpr glm::vec3 kFrustum(0.85f, 0.0f, 0.25f);
 
@@ -24,6 +27,27 @@ View view_from_above(const Aabb& bounds, const glm::dvec3& origin, double aspect
     const glm::dvec3 eye(centre.x, origin.y + static_cast<double>(bounds.max.y) + 0.1 * extent.y, centre.z);
     return {look_along(eye, {0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}),
             orthographic(height * aspect, height, 0.0, 1.2 * extent.y, clip_depth), clip_depth};
+}
+
+/// Colour of the n-th call: neighbours differ, replicas never look like base ranges.
+glm::vec3 call_colour(std::size_t call, bool replica) {
+    constexpr double kGoldenRatio = 0.6180339887498949;
+    const double turn = kGoldenRatio * static_cast<double>(call);
+    const auto t = static_cast<float>(turn - std::floor(turn));
+    return replica ? glm::mix(glm::vec3(0.05f, 0.75f, 0.45f), glm::vec3(0.05f, 0.35f, 1.0f), t)
+                   : glm::mix(glm::vec3(1.0f, 0.80f, 0.10f), glm::vec3(0.95f, 0.15f, 0.05f), t);
+}
+
+/// The parts of `drawn`, which is one range of the base order, that `to_show` (by first index) doesn't hold.
+void append_gaps(const DrawRange& drawn, std::span<const DrawRange> to_show, std::vector<DrawRange>& gaps) {
+    const std::uint32_t end = drawn.first_index + drawn.index_count;
+    std::uint32_t next = drawn.first_index;
+    auto shown = std::ranges::lower_bound(to_show, drawn.first_index, {}, &DrawRange::first_index);
+    for (; shown != to_show.end() && shown->first_index < end; ++shown) {
+        if (shown->first_index > next) gaps.push_back({drawn.batch, next, shown->first_index - next});
+        next = shown->first_index + shown->index_count;
+    }
+    if (next < end) gaps.push_back({drawn.batch, next, end - next});
 }
 
 }  // namespace
@@ -40,13 +64,28 @@ Result<ViewFromAbove> ViewFromAbove::create(int width, int height) {
 }
 
 gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& plan,
-                                const FramePlanner& planner, const gl::SceneBuffers& buffers,
-                                const Aabb& bounds, const View& view, gl::Executor& executor) {
+                                std::span<const DrawRange> to_show, const FramePlanner& planner,
+                                const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
+                                gl::Executor& executor) {
     const double aspect = static_cast<double>(target_.width()) / target_.height();
     const View above = view_from_above(bounds, buffers.origin(), aspect, view.clip_depth);
     target_.begin(view.clip_depth, kPaper);
     executor.draw(everything, buffers, above, {gl::Submission::MultiDraw, kNotDrawn});
-    executor.draw(plan, buffers, above, {gl::Submission::MultiDraw, kDrawn});
+    std::uint64_t base_indices = 0;
+    for (const DrawRange& range : everything.opaque) base_indices += range.index_count;
+    std::vector<DrawRange> sorted(to_show.begin(), to_show.end());
+    std::ranges::sort(sorted, {}, &DrawRange::first_index);
+    FramePlan one, gaps;
+    for (std::size_t call = 0; call < plan.opaque.size(); ++call) {
+        const bool replica = plan.opaque[call].first_index >= base_indices;
+        one.opaque.assign(1, plan.opaque[call]);
+        executor.draw(one, buffers, above, {gl::Submission::Plain, call_colour(call, replica)});
+        if (!replica && !sorted.empty()) append_gaps(plan.opaque[call], sorted, gaps.opaque);
+    }
+    executor.draw(gaps, buffers, above, {gl::Submission::MultiDraw, kBridged});
+    FramePlan objects;
+    objects.objects = plan.objects;
+    executor.draw(objects, buffers, above, {gl::Submission::Plain, call_colour(0, false)});
     gl::Lines boxes;
     for (const std::uint32_t chosen : plan.chosen) boxes.add_box(planner.bounds_of(chosen), buffers.origin());
     lines_.draw(boxes, above, kBoxes);

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <span>
+
 #include "rhview/gl/executor.h"
 #include "rhview/gl/line_drawer.h"
 #include "rhview/gl/render_target.h"
@@ -10,17 +12,19 @@
 
 namespace rhview::cli {
 
-/// What was drawn of a scene, seen from above: drawn triangles in colour, the rest in grey, the boxes of what
-/// the planner chose, the frustum.
+/// What was drawn of a scene, seen from above: each draw call in a colour of its own (those from the base
+/// order yellow to red, those from replicas blue to green), bridged gaps violet, the rest grey, the boxes of
+/// what the planner chose, the frustum.
 class ViewFromAbove {
   public:
     static Result<ViewFromAbove> create(int width, int height);
 
     /// `everything` and `plan` are for the same buffers; `bounds` is the scene's, relative to the buffers'
-    /// origin.
-    gl::Picture draw(const FramePlan& everything, const FramePlan& plan, const FramePlanner& planner,
-                     const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
-                     gl::Executor& executor);
+    /// origin. `to_show` is what `plan` must show: the rest of its base ranges are bridged gaps; empty:
+    /// nothing is known of gaps.
+    gl::Picture draw(const FramePlan& everything, const FramePlan& plan, std::span<const DrawRange> to_show,
+                     const FramePlanner& planner, const gl::SceneBuffers& buffers, const Aabb& bounds,
+                     const View& view, gl::Executor& executor);
 
   private:
     ViewFromAbove(gl::RenderTarget target, gl::LineDrawer lines);

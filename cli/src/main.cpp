@@ -17,7 +17,7 @@
 namespace rhview::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> kVerbs{"scenes", "info", "walk", "bake"};
+constexpr std::array<std::string_view, 5> kVerbs{"scenes", "info", "calibrate", "bake", "walk"};
 
 constexpr const char* kSceneHelp = "A file (.glb .gltf .obj .ply .rho) or a named scene";
 
@@ -48,6 +48,17 @@ void add_octree_options(CLI::App& verb, std::optional<std::uint32_t>& leaf, doub
         ->capture_default_str();
 }
 
+void add_calibrate(CLI::App& app, CalibrateOptions& options) {
+    CLI::App* calibrate =
+        app.add_subcommand("calibrate", "Fit the timing constants of this machine, in 20 seconds at most");
+    calibrate->add_option("SCENE", options.scene,
+                          "Measure with this scene's triangles; without it, with those of named scenes");
+    calibrate->add_option("-o,--output", options.output, "Where to write the profile, instead of the cache")
+        ->type_name("PROFILE");
+    calibrate->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
+    calibrate->add_option("--csv", options.csv, "Write a line per timed frame")->type_name("FILE");
+}
+
 void add_walk(CLI::App& app, WalkOptions& options) {
     CLI::App* walk = app.add_subcommand("walk", "One culling method along a camera path, headless");
     walk->add_option("SCENE", options.scene, kSceneHelp)->required();
@@ -58,8 +69,9 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->capture_default_str();
     walk->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
         ->type_name("FILE");
-    walk->add_option("--profile", options.profile,
-                     "Timing constants (rhview.profile/1) to predict each frame with")
+    walk->add_option(
+            "--profile", options.profile,
+            "Timing constants (rhview.profile/1); else those that calibrate saved, else measured quickly")
         ->type_name("FILE");
     walk->add_option("--set", options.set,
                      "Timing constants in ns: c0, c1 per index, c3 per draw call, query")
@@ -69,6 +81,9 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->capture_default_str();
     walk->add_option("--warmup", options.warmup, "Frames drawn before, not measured")
         ->check(CLI::Range(0, 1'000'000))
+        ->capture_default_str();
+    walk->add_option("--repeats", options.repeats, "Draw each frame that often, report the median time")
+        ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
     add_octree_options(*walk, options.leaf, options.replica_budget);
@@ -101,8 +116,10 @@ void add_bake(CLI::App& app, BakeOptions& options) {
         ->type_name("M")
         ->capture_default_str();
     add_octree_options(*bake, options.leaf, options.replica_budget);
-    bake->add_option("--profile", options.profile,
-                     "Timing constants (rhview.profile/1) that leaves and replicas are chosen by")
+    bake->add_option(
+            "--profile", options.profile,
+            "Timing constants (rhview.profile/1) that leaves and replicas are chosen by; default: this "
+            "machine's")
         ->type_name("FILE");
     bake->add_option("--set", options.set, "Timing constants in ns: c1 per index, c3 per draw call")
         ->type_name("c1=…,c3=…");
@@ -128,6 +145,8 @@ int run(int argc, char** argv) {
         app.add_subcommand("scenes", "The named procedural scenes, their parameters and sizes");
     InfoOptions info;
     add_info(app, info);
+    CalibrateOptions calibrate;
+    add_calibrate(app, calibrate);
     WalkOptions walk;
     add_walk(app, walk);
     BakeOptions bake;
@@ -148,6 +167,7 @@ int run(int argc, char** argv) {
     Result<int> code = app.got_subcommand(scenes->get_name()) ? run_scenes()
                        : app.got_subcommand("info")           ? run_info(info)
                        : app.got_subcommand("bake")           ? run_bake(bake)
+                       : app.got_subcommand("calibrate")      ? run_calibrate(calibrate)
                                                               : run_walk(walk);
     if (code && std::fflush(stdout) != 0)
         code = Error{"standard output can't be written to; is the disk full?"};

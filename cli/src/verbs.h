@@ -21,6 +21,13 @@ struct InfoOptions {
     std::optional<std::filesystem::path> json;
 };
 
+struct CalibrateOptions {
+    std::string scene;  ///< empty: named scenes of several kinds
+    std::string size = "1280x720";
+    std::optional<std::filesystem::path> output;
+    std::optional<std::filesystem::path> csv;
+};
+
 struct WalkOptions {
     std::string scene;
     std::string method = "rhview";
@@ -32,6 +39,7 @@ struct WalkOptions {
     std::string set;
     int frames = 120;
     int warmup = 8;
+    int repeats = 1;
     std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
     double replica_budget = 1.0;
     bool check = false;
@@ -57,6 +65,7 @@ struct BakeOptions {
 /// Each verb prints its answer and returns the exit code, or an error that ends the program with `kBadInput`.
 Result<int> run_scenes();
 Result<int> run_info(const InfoOptions& options);
+Result<int> run_calibrate(const CalibrateOptions& options);
 Result<int> run_walk(const WalkOptions& options);
 Result<int> run_bake(const BakeOptions& options);
 

@@ -30,6 +30,11 @@ Json statistics(const WalkReport& report, Field field) {
     return {{"mean", s.mean}, {"median", s.median}, {"p95", s.p95}, {"max", s.max}};
 }
 
+/// Counts are whole numbers, also where the model takes them as real ones.
+std::uint64_t count(double value) {
+    return static_cast<std::uint64_t>(value);
+}
+
 template <class T>
 Json or_null(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
@@ -50,32 +55,60 @@ Json missing_pixels_json(const WalkReport& report) {
 }
 
 /// |predicted - measured| / measured.
-Json prediction_error_json(const WalkReport& report) {
-    const Statistics s = summarise(column(report, [](const FrameRecord& f) {
-        return std::abs(f.predicted_ms.value_or(0.0) - f.frame_ms) / f.frame_ms;
+template <class Field>
+Statistics prediction_errors(const WalkReport& report, Field predicted_ms) {
+    return summarise(column(report, [&](const FrameRecord& f) {
+        return std::abs(predicted_ms(f).value_or(0.0) - f.frame_ms) / f.frame_ms;
     }));
+}
+
+constexpr auto kPredicted = [](const FrameRecord& f) { return f.predicted_ms; };
+constexpr auto kRunningPredicted = [](const FrameRecord& f) { return f.running_predicted_ms; };
+
+template <class Field>
+Json prediction_error_json(const WalkReport& report, Field predicted_ms) {
+    if (!report.profile) return nullptr;
+    const Statistics s = prediction_errors(report, predicted_ms);
     return {{"median", s.median}, {"p95", s.p95}};
+}
+
+Json profile_json(const std::optional<WalkReport::Profile>& profile) {
+    Json json;
+    for (const Term term : kAllTerms) {
+        const std::optional<double> value =
+            profile ? profile->constants.constant(term) : std::optional<double>();
+        json[std::string(profile_field_of(term))] = or_null(value);
+    }
+    json["combination"] = nullptr;
+    json["hold_out_error"] = nullptr;
+    json["source"] = nullptr;
+    if (!profile) return json;
+    json["combination"] = profile->constants.combination == Combination::Sum ? "sum" : "max";
+    json["hold_out_error"] = or_null(profile->constants.hold_out_error);
+    json["source"] = profile->source;
+    return json;
 }
 
 Json summary_json(const WalkReport& report) {
     const bool has_gpu = !report.frames.empty() && report.frames.front().gpu_ms.has_value();
     const bool has_objects = report.scene.dynamic_objects > 0;
     Json summary;
-    summary["draw_calls"] = statistics(report, [](const FrameRecord& f) { return f.draw_calls; });
-    summary["sub_draws"] = statistics(report, [](const FrameRecord& f) { return f.sub_draws; });
-    summary["indices"] = statistics(report, [](const FrameRecord& f) { return f.indices; });
-    summary["queries"] = statistics(report, [](const FrameRecord&) { return 0.0; });  // no method issues any
+    summary["draw_calls"] = statistics(report, [](const FrameRecord& f) { return f.work.draw_calls; });
+    summary["sub_draws"] = statistics(report, [](const FrameRecord& f) { return f.work.sub_draws; });
+    summary["indices"] = statistics(report, [](const FrameRecord& f) { return f.work.indices; });
+    summary["queries"] = statistics(report, [](const FrameRecord& f) { return f.work.queries; });
     summary["nodes_visited"] = statistics(report, [](const FrameRecord& f) { return f.nodes_visited; });
     summary["cull_ms"] = statistics(report, [](const FrameRecord& f) { return f.cull_ms; });
     summary["frame_ms"] = statistics(report, [](const FrameRecord& f) { return f.frame_ms; });
     summary["gpu_ms"] = has_gpu
                             ? statistics(report, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); })
                             : Json(nullptr);
-    const bool predicted = report.profile.source.has_value();
+    const bool predicted = report.profile.has_value();
     summary["predicted_ms"] =
         predicted ? statistics(report, [](const FrameRecord& f) { return f.predicted_ms.value_or(0.0); })
                   : Json(nullptr);
-    summary["prediction_error"] = predicted ? prediction_error_json(report) : Json(nullptr);
+    summary["prediction_error"] = prediction_error_json(report, kPredicted);
+    summary["running_prediction_error"] = prediction_error_json(report, kRunningPredicted);
     summary["visible_objects"] =
         has_objects ? statistics(report, [](const FrameRecord& f) { return f.visible_objects; })
                     : Json(nullptr);
@@ -89,6 +122,17 @@ std::string table_row(const char* name, int decimals, const std::vector<double>&
     const Statistics s = summarise(values);
     return fmt::format("  {:<16}{:>14.{}f}{:>14.{}f}{:>14.{}f}{:>14.{}f}\n", name, s.mean, decimals, s.median,
                        decimals, s.p95, decimals, s.max, decimals);
+}
+
+std::string timing_line(const WalkReport& report) {
+    if (!report.profile) return fmt::format("  no prediction: {}\n", report.why_no_profile);
+    const TimingProfile& constants = report.profile->constants;
+    const Statistics error = prediction_errors(report, kPredicted);
+    return fmt::format(
+        "  prediction off by {:.1f} % in the median, {:.1f} % at p95; {:.3g} ns an index, {:.4g} ns a call,\n"
+        "  constants {}\n",
+        100.0 * error.median, 100.0 * error.p95, constants.c1_ns,
+        constants.c3_ns + constants.sub_draw_ns.value_or(0.0), report.profile->told);
 }
 
 }  // namespace
@@ -116,11 +160,7 @@ std::string to_json(const WalkReport& report) {
     json["device"] = {{"renderer", report.device.renderer},
                       {"version", report.device.version},
                       {"timer", report.device.timer}};
-    json["profile"] = {{"c0_ns", or_null(report.profile.c0_ns)},
-                       {"c1_ns", or_null(report.profile.c1_ns)},
-                       {"c3_ns", or_null(report.profile.c3_ns)},
-                       {"query_ns", or_null(report.profile.query_ns)},
-                       {"source", or_null(report.profile.source)}};
+    json["profile"] = profile_json(report.profile);
     json["method"] = report.method;
     json["mode"] = report.mode;
     json["submission"] = report.submission;
@@ -139,15 +179,20 @@ std::string to_json(const WalkReport& report) {
     json["per_frame"] = Json::array();
     for (const FrameRecord& f : report.frames)
         json["per_frame"].push_back({{"frame", f.frame},
-                                     {"draw_calls", f.draw_calls},
-                                     {"sub_draws", f.sub_draws},
-                                     {"indices", f.indices},
-                                     {"queries", 0},
+                                     {"draw_calls", count(f.work.draw_calls)},
+                                     {"sub_draws", count(f.work.sub_draws)},
+                                     {"indices", count(f.work.indices)},
+                                     {"material_changes", count(f.work.material_changes)},
+                                     {"primitives", count(f.work.primitives)},
+                                     {"fragments", count(f.work.fragments)},
+                                     {"passed_samples", count(f.work.passed_samples)},
+                                     {"queries", count(f.work.queries)},
                                      {"nodes_visited", f.nodes_visited},
                                      {"cull_ms", f.cull_ms},
                                      {"frame_ms", f.frame_ms},
                                      {"gpu_ms", or_null(f.gpu_ms)},
                                      {"predicted_ms", or_null(f.predicted_ms)},
+                                     {"running_predicted_ms", or_null(f.running_predicted_ms)},
                                      {"missing_pixels", or_null(f.missing_pixels)}});
     // A file name need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -155,12 +200,14 @@ std::string to_json(const WalkReport& report) {
 
 std::string to_csv(const WalkReport& report) {
     std::string csv =
-        "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels\n";
+        "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels,predicted_"
+        "ms\n";
     for (const FrameRecord& f : report.frames) {
-        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{}\n", f.frame, f.draw_calls, f.sub_draws,
-                           f.indices, f.nodes_visited, f.cull_ms, f.frame_ms,
-                           f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
-                           f.missing_pixels ? std::to_string(*f.missing_pixels) : "");
+        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{}\n", f.frame, count(f.work.draw_calls),
+                           count(f.work.sub_draws), count(f.work.indices), f.nodes_visited, f.cull_ms,
+                           f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
+                           f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
+                           f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "");
     }
     return csv;
 }
@@ -188,15 +235,16 @@ std::string to_table(const WalkReport& report) {
     const auto row = [&](const char* name, int decimals, auto field) {
         table += table_row(name, decimals, column(report, field));
     };
-    row("draw calls", 1, [](const FrameRecord& f) { return f.draw_calls; });
-    if (report.submission != "plain") row("sub-draws", 1, [](const FrameRecord& f) { return f.sub_draws; });
-    row("indices", 0, [](const FrameRecord& f) { return f.indices; });
+    row("draw calls", 1, [](const FrameRecord& f) { return f.work.draw_calls; });
+    if (report.submission != "plain")
+        row("sub-draws", 1, [](const FrameRecord& f) { return f.work.sub_draws; });
+    row("indices", 0, [](const FrameRecord& f) { return f.work.indices; });
     row("nodes visited", 0, [](const FrameRecord& f) { return f.nodes_visited; });
     if (report.scene.dynamic_objects > 0)
         row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
     row("cull ms", 3, [](const FrameRecord& f) { return f.cull_ms; });
     row("frame ms", 2, [](const FrameRecord& f) { return f.frame_ms; });
-    if (report.profile.source)
+    if (report.profile)
         row("predicted ms", 2, [](const FrameRecord& f) { return f.predicted_ms.value_or(0.0); });
     if (!report.frames.empty() && report.frames.front().gpu_ms)
         row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
@@ -204,6 +252,7 @@ std::string to_table(const WalkReport& report) {
         fmt::format("\n  everything: {} draw calls, {} indices; plan hash {:016x}\n",
                     report.scene.batches + report.scene.dynamic_objects,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
+    table += timing_line(report);
     if (const int checked = report.checked_frames(); checked > 0)
         table += fmt::format("  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
                              checked == 1 ? "" : "s");

@@ -8,20 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "rhview/timing_model/profile.h"
+
 namespace rhview::cli {
 
 /// What was counted and measured in one frame; absent is what was not measured.
 struct FrameRecord {
     int frame = 0;
-    std::uint64_t draw_calls = 0;
-    std::uint64_t sub_draws = 0;
-    std::uint64_t indices = 0;
+    Work work;
     std::uint64_t nodes_visited = 0;
     std::uint64_t visible_objects = 0;
     double cull_ms = 0.0;
     double frame_ms = 0.0;
     std::optional<double> gpu_ms;
     std::optional<double> predicted_ms;
+    std::optional<double> running_predicted_ms;  ///< with constants that follow the frames before
     std::optional<std::uint64_t> missing_pixels;
 };
 
@@ -50,13 +51,13 @@ struct WalkReport {
         std::uint64_t index_bytes = 0;
         std::uint64_t vertex_bytes = 0;
     } build;
-    struct {
-        std::optional<double> c0_ns;
-        std::optional<double> c1_ns;
-        std::optional<double> c3_ns;
-        std::optional<double> query_ns;
-        std::optional<std::string> source;  ///< "file" or "set"
-    } profile;
+    struct Profile {
+        TimingProfile constants;
+        std::string source;  ///< "file", "quick" or "set"
+        std::string told;
+    };
+    std::optional<Profile> profile;
+    std::string why_no_profile;
     std::string method;
     std::string mode;
     std::string submission;

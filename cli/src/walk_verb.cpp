@@ -4,16 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "constants.h"
 #include "frame_pictures.h"
 #include "method.h"
 #include "output_file.h"
+#include "picture_size.h"
 #include "progress.h"
 #include "rhview/gl/context.h"
 #include "rhview/gl/timer.h"
+#include "rhview/gl/work_counter.h"
+#include "rhview/rhoctree/draw_list.h"
+#include "rhview/timing_model/running_update.h"
 #include "scene_source.h"
+#include "statistics.h"
 #include "verbs.h"
 #include "walk_report.h"
 
@@ -21,23 +25,6 @@ namespace rhview::cli {
 namespace {
 
 constexpr glm::vec3 kSky(0.74f, 0.82f, 0.90f);
-
-struct PictureSize {
-    int width = 0;
-    int height = 0;
-};
-
-Result<PictureSize> parse_size(const std::string& text) {
-    PictureSize size;
-    const char* end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, size.width);
-    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-        const auto height = std::from_chars(width.ptr + 1, end, size.height);
-        if (height.ec == std::errc() && height.ptr == end && size.width > 0 && size.height > 0) return size;
-    }
-    return Error{"--size " + text +
-                 ": not a picture size; write WIDTHxHEIGHT, both at least 1, as in 1280x720"};
-}
 
 Status check_options(const WalkOptions& options) {
     const std::vector<std::string> methods = method_names();
@@ -78,14 +65,6 @@ struct Outputs {
     }
 };
 
-Work work_of(const gl::FrameCounters& counters) {
-    Work work;
-    work.indices = static_cast<double>(counters.indices);
-    work.draw_calls = static_cast<double>(counters.draw_calls);
-    work.sub_draws = static_cast<double>(counters.sub_draws);
-    return work;
-}
-
 /// Everything a walk needs on the device, and the walk itself.
 class Walk {
   public:
@@ -111,10 +90,16 @@ class Walk {
             progress.show("warm-up", i, options_.warmup);
             draw_frame(0);
         }
+        std::optional<RunningUpdate> running;
+        if (constants_) running.emplace(constants_->profile);
         report.plan_hash = plan_hash({});
         for (int frame = 0; frame < options_.frames; ++frame) {
             progress.show("walking", frame, options_.frames);
             FrameRecord record = draw_frame(frame);
+            if (running) {
+                record.running_predicted_ms = 1e-6 * running->predict_ns(record.work);
+                running->observe({record.work, 1e6 * record.frame_ms});
+            }
             report.plan_hash = plan_hash(plan_, report.plan_hash);
             const bool checked = options_.check && frame % options_.check_every == 0;
             const bool pictured = options_.images && frame % options_.images_every == 0;
@@ -141,6 +126,7 @@ class Walk {
         const Result<gl::TimerCheck> timer = gl::check_gpu_timer();
         if (!timer) return timer.error();
         if (timer->gpu_timer_is_whole()) gpu_timer_.emplace();
+        work_counter_.emplace();
         report.device.timer = gpu_timer_ ? "gpu" : "wall";
         if (options_.images) {
             Result<ViewFromAbove> above = ViewFromAbove::create(size.width, size.height);
@@ -159,9 +145,12 @@ class Walk {
         return path_.view_of_frame(frame, options_.frames, aspect, clip_depth_);
     }
 
-    FrameRecord draw_frame(int frame) {
+    /// One drawing of the frame; the first of several counts, all of them are timed.
+    FrameRecord draw_once(int frame) {
         const View view = view_of(frame);
         const FrameInput input{culling_view_of(frame), scene_.origin, object_boxes_};
+        gl::DrawOptions draw;
+        draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
         target_->begin(clip_depth_, kSky);
         gl::finish();
         FrameRecord record;
@@ -170,19 +159,34 @@ class Walk {
         method_.planner->plan(input, plan_);
         record.cull_ms = timer.elapsed_ms();
         if (gpu_timer_) gpu_timer_->begin();
-        gl::DrawOptions draw;
-        draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
+        work_counter_->begin();
         const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, view, draw);
+        work_counter_->end();
         if (gpu_timer_) gpu_timer_->end();
         gl::finish();
         record.frame_ms = timer.elapsed_ms();
         if (gpu_timer_) record.gpu_ms = gpu_timer_->read_ms();
-        record.draw_calls = counters.draw_calls;
-        record.sub_draws = counters.sub_draws;
-        record.indices = counters.indices;
+        record.work = gl::work_of(counters);
+        work_counter_->read(record.work);
         record.nodes_visited = plan_.nodes_visited;
         record.visible_objects = plan_.objects.size();
-        if (constants_) record.predicted_ms = 1e-6 * constants_->profile.predict_ns(work_of(counters));
+        if (constants_) record.predicted_ms = 1e-6 * constants_->profile.predict_ns(record.work);
+        return record;
+    }
+
+    FrameRecord draw_frame(int frame) {
+        FrameRecord record = draw_once(frame);
+        std::vector<double> frame_ms{record.frame_ms}, cull_ms{record.cull_ms},
+            gpu_ms{record.gpu_ms.value_or(0.0)};
+        for (int i = 1; i < options_.repeats; ++i) {
+            const FrameRecord again = draw_once(frame);
+            frame_ms.push_back(again.frame_ms);
+            cull_ms.push_back(again.cull_ms);
+            gpu_ms.push_back(again.gpu_ms.value_or(0.0));
+        }
+        record.frame_ms = summarise(frame_ms).median;
+        record.cull_ms = summarise(cull_ms).median;
+        if (record.gpu_ms) record.gpu_ms = summarise(gpu_ms).median;
         return record;
     }
 
@@ -203,13 +207,20 @@ class Walk {
 
         gl::Picture reference = target_->read_colour();
         gl::Picture difference = gl::difference_picture(reference, culled_depths_, reference_depths_);
-        gl::Picture above = above_->draw(everything_, plan_, *method_.planner, *buffers_, bounds_,
-                                         culling_view_of(frame), *executor_);
+        const View culling_view = culling_view_of(frame);
+        std::vector<DrawRange> to_show;
+        if (options_.method == "rhview")
+            append_ranges_to_show(*method_.octree, make_frustum(culling_view, scene_.origin),
+                                  make_viewpoint(culling_view, scene_.origin), to_show);
+        gl::Picture above = above_->draw(everything_, plan_, to_show, *method_.planner, *buffers_, bounds_,
+                                         culling_view, *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
-                                  record.draw_calls, static_cast<double>(record.indices) * 1e-6));
+                                  record.work.draw_calls, record.work.indices * 1e-6));
         reference.label("everything drawn");
         difference.label(fmt::format("missing pixels (red): {}", missing));
-        above.label("from above: drawn orange, not drawn grey, nodes blue, frustum red");
+        above.label(options_.method == "rhview"
+                        ? "from above: a colour per call (replicas blue, green), gaps violet, rest grey"
+                        : "from above: a colour per call, rest grey, nodes blue, frustum red");
         return gl::sheet(*culled, reference, difference, above)
             .save_png(*options_.images / fmt::format("frame_{:04}.png", frame));
     }
@@ -227,6 +238,7 @@ class Walk {
     std::optional<gl::Executor> executor_;
     std::optional<gl::SceneBuffers> buffers_;
     std::optional<gl::GpuTimer> gpu_timer_;
+    std::optional<gl::WorkCounter> work_counter_;
     std::optional<ViewFromAbove> above_;
     FramePlan plan_;
     FramePlan everything_;
@@ -287,8 +299,8 @@ Result<int> run_walk(const WalkOptions& options) {
     if (Status status = check_options(options); !status) return status.error();
     const Result<PictureSize> size = parse_size(options.size);
     if (!size) return size.error();
-    const Result<std::optional<UserConstants>> constants = read_constants(options.profile, options.set);
-    if (!constants) return constants.error();
+    const Result<WantedConstants> wanted = parse_constants(options.profile, options.set);
+    if (!wanted) return wanted.error();
     Outputs outputs;
     if (Status status = outputs.open(options); !status) return status.error();
 
@@ -298,20 +310,29 @@ Result<int> run_walk(const WalkOptions& options) {
     progress.say("loading " + options.scene);
     const Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
+    progress.say("choosing timing constants");
+    const Result<ChosenConstants> chosen =
+        choose_constants(*wanted, options.scene, *loaded, context->device(), size->width, size->height);
+    if (!chosen) return chosen.error();
+    if (!chosen->warning.empty()) {
+        progress.clear();
+        fmt::print(stderr, "rhview: warning: {}\n", chosen->warning);
+    }
+    const std::optional<UserConstants>& constants = chosen->constants;
     progress.say("building");
     MethodOptions method_options{options.leaf, options.replica_budget, {}};
-    if (const std::optional<UserConstants>& known = *constants)
-        method_options.costs = {known->profile.c1_ns, known->profile.c3_ns, 0.0};
+    if (constants) method_options.costs = draw_costs(constants->profile, options.submission == "multi");
     Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, method_options,
                                                    loaded->baked ? &loaded->baked->octree : nullptr);
     if (!method) return method.error();
 
     WalkReport report = describe(options, *loaded, *method, context->device(), *size);
-    if (const std::optional<UserConstants>& known = *constants)
-        report.profile = {known->profile.c0_ns, known->profile.c1_ns, known->profile.c3_ns,
-                          known->profile.query_ns, known->source};
+    if (constants)
+        report.profile = {constants->profile, constants->source, constants->told};
+    else
+        report.why_no_profile = chosen->why_not;
     {
-        Walk walk(options, *constants, *loaded, *method, context->device());
+        Walk walk(options, constants, *loaded, *method, context->device());
         if (Status status = walk.run(*size, report); !status) return status.error();
     }
     if (Status status = outputs.commit(report); !status) return status.error();

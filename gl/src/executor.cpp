@@ -162,12 +162,14 @@ FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, c
         std::size_t end = first + 1;
         while (end < plan.opaque.size() && plan.opaque[end].batch == batch) ++end;
         set_state(scene.batches()[index_of(batch)]);
+        ++counters.material_changes;
         draw_ranges(std::span(plan.opaque).subspan(first, end - first), options.submission, counters);
         first = end;
     }
     for (const ObjectId id : plan.objects) {
         const ObjectInstance& object = scene.objects()[index_of(id)];
         set_state(object.state);
+        ++counters.material_changes;
         set_transform(view, scene.origin(), object.scene_from_mesh);
         const DrawRange whole{BatchId{0}, object.first_index, object.index_count};
         draw_ranges(std::span(&whole, 1), Submission::Plain, counters);

@@ -20,7 +20,6 @@ Result<RhOctree> build_octree(std::span<const TriangleBatch> batches, const Octr
     if (progress.stopped()) return BuildProgress::stopped_error();
     std::vector<MortonTriangle>().swap(triangles);
     RhOctree octree = builder.take();
-    progress.begin_phase(0.2, 1);
     if (options.replica_budget > 0.0 && options.normal_order && !octree.nodes().empty())
         ReplicaBuilder(batches, options, builder.cluster_of_triangle(), octree, progress).build();
     if (progress.stopped()) return BuildProgress::stopped_error();

@@ -38,13 +38,17 @@ class ReplicaBuilder {
 
   private:
     void add_candidates();
-    void add_candidate(std::uint32_t node, const DrawRange& range);
+    void bound_candidates();
+    void bound_candidate(const OctreeReplica& range, std::vector<NormalCluster>& clusters) const;
+    /// The clusters of each replica, one replica after the other, behind those that are there.
+    void append(const std::vector<std::vector<NormalCluster>>& clusters_of_replica);
     void count_nodes_replicas();
     void measure_savings();
     void keep_outer_or_inner();
     void keep_within_budget();
     void drop_unchosen();
     void emit_indices();
+    void emit_replica(const OctreeReplica& replica, std::vector<NormalCluster>& clusters);
 
     std::span<const TriangleBatch> batches_;
     const OctreeOptions& options_;

@@ -51,7 +51,7 @@ int main() {
     const rhview::DrawCosts costs{.index_ns = 0.25, .draw_ns = 2000};
     const rhview::TriangleBatch batch{rhview::MaterialId{0}, positions, indices};
     const auto octree =
-        rhview::build_octree({&batch, 1}, rhview::choose_octree_options(costs, indices.size()));
+        rhview::build_octree({&batch, 1}, rhview::choose_octree_options(costs, indices.size(), 1));
     if (!octree) return std::puts(octree.error().message.c_str()), 1;
     upload_index_buffer(octree->indices());
 

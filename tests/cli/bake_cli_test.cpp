@@ -7,12 +7,15 @@
 namespace rhview::cli {
 namespace {
 
-const std::string kWalk = " --frames 8 --warmup 0 --size 160x90 --check ";
+// Constants are named: a machine's own differ from run to run.
+const std::string kCosts = " --set c1=0.25,c3=2000 ";
+const std::string kWalk = " --frames 8 --warmup 0 --size 160x90 --check " + kCosts;
 
 class Bake : public ProgramTest {
   protected:
     void bake(const std::string& arguments) {
-        const Outcome outcome = run("bake " + arguments);
+        const bool costs_named = arguments.find("--set") != std::string::npos;
+        const Outcome outcome = run("bake " + arguments + (costs_named ? "" : kCosts));
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         EXPECT_EQ(outcome.err, "");
     }
@@ -81,12 +84,12 @@ TEST_F(Bake, pixels_are_those_of_the_source) {
     bake("town:size=96 -o a.rho");
     for (const char* method : {"none", "frustum", "rhview"}) {
         const std::string options =
-            std::string(" --frames 2 --warmup 0 --size 160x90 --images-every 1 --method ") + method;
+            " --frames 2 --warmup 0 --size 160x90 --images-every 1 --method " + (method + kCosts);
         ASSERT_EQ(run("walk town:size=96" + options + " --images source").code, 0);
         ASSERT_EQ(run("walk a.rho" + options + " --images baked").code, 0);
         std::size_t pictures = 0;
         for (const auto& entry : std::filesystem::directory_iterator(folder_ / "source")) {
-            EXPECT_EQ(read_file(entry.path()), read_file(folder_ / "baked" / entry.path().filename()))
+            EXPECT_TRUE(read_file(entry.path()) == read_file(folder_ / "baked" / entry.path().filename()))
                 << method << " " << entry.path().filename();
             ++pictures;
         }
@@ -114,13 +117,13 @@ TEST_F(Bake, info_tells_the_scene_and_where_it_came_from) {
 TEST_F(Bake, equal_scenes_give_equal_files_and_a_baked_one_can_be_baked_again) {
     bake("plant:objects=500 -o a.rho");
     bake("plant:objects=500 -o b.rho");
-    EXPECT_EQ(read_file(folder_ / "a.rho"), read_file(folder_ / "b.rho"));
+    EXPECT_TRUE(read_file(folder_ / "a.rho") == read_file(folder_ / "b.rho"));
     bake("a.rho -o c.rho --leaf 64");
     bake("plant:objects=500 -o d.rho --leaf 64");
-    EXPECT_EQ(read_file(folder_ / "c.rho"), read_file(folder_ / "d.rho"));
+    EXPECT_TRUE(read_file(folder_ / "c.rho") == read_file(folder_ / "d.rho"));
     // Onto itself, too: the old file stays mapped until the new one is whole.
     bake("a.rho -o a.rho --leaf 64");
-    EXPECT_EQ(read_file(folder_ / "a.rho"), read_file(folder_ / "d.rho"));
+    EXPECT_TRUE(read_file(folder_ / "a.rho") == read_file(folder_ / "d.rho"));
     EXPECT_EQ(files_in_folder(), 4u);
 }
 
@@ -142,7 +145,7 @@ TEST_F(Bake, bad_usage_is_told_and_leaves_nothing) {
     refuse("bake soup -o a.rho --leaf 0", "--leaf");
     refuse("bake soup -o a.rho --method none", "--method none: has no octree to bake");
     refuse("bake soup -o a.rho --replica-budget -1", "--replica-budget");
-    refuse("bake soup -o a.rho --set c1=1", "both c1 and c3");
+    refuse("bake soup -o a.rho --set c1", "--set");
     refuse("bake gone.rho -o a.rho", "gone.rho: there is no such file");
     std::filesystem::create_directory(folder_ / "folder.rho");
     refuse("bake soup -o folder.rho", "is a folder");

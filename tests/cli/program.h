@@ -42,17 +42,23 @@ class ProgramTest : public testing::Test {
         std::string name = std::string(info->test_suite_name()) + "." + info->name();
         std::ranges::replace(name, '/', '_');
         folder_ = std::filesystem::path(testing::TempDir()) / ("rhview_" + name);
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
+        cache_ = folder_.string() + "_cache";
+        for (const std::filesystem::path& folder : {folder_, cache_}) {
+            std::filesystem::remove_all(folder);
+            std::filesystem::create_directories(folder);
+        }
     }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
+    void TearDown() override {
+        std::filesystem::remove_all(folder_);
+        std::filesystem::remove_all(cache_);
+    }
 
-    /// `environment` as in a shell: "A=1 B=2".
+    /// `environment` as in a shell: "A=1 B=2". Profiles are saved in the test's own folder.
     Outcome run(const std::string& arguments, const std::string& environment = "") {
         const std::filesystem::path out = folder_ / ".out", err = folder_ / ".err";
-        const std::string command = "cd '" + folder_.string() + "' && " + environment +
-                                    " '" RHVIEW_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" +
-                                    err.string() + "' </dev/null";
+        const std::string command = "cd '" + folder_.string() + "' && XDG_CACHE_HOME='" + cache_.string() +
+                                    "' " + environment + " '" RHVIEW_PROGRAM "' " + arguments + " >'" +
+                                    out.string() + "' 2>'" + err.string() + "' </dev/null";
         const int status = std::system(command.c_str());
         Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
         std::filesystem::remove(out);
@@ -71,6 +77,7 @@ class ProgramTest : public testing::Test {
     }
 
     std::filesystem::path folder_;
+    std::filesystem::path cache_;  ///< where saved profiles go
 };
 
 }  // namespace rhview::cli

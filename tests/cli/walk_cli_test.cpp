@@ -42,7 +42,12 @@ TEST_F(Walk, json_keeps_the_contract) {
     EXPECT_EQ(walk["scene"]["dynamic_objects"], 0);
     EXPECT_EQ(walk["scene"]["materials"], 1);
     for (const char* field : {"renderer", "version", "timer"}) EXPECT_TRUE(walk["device"][field].is_string());
-    EXPECT_TRUE(walk["profile"].contains("c1_ns"));
+    EXPECT_TRUE(walk["profile"]["c1_ns"].is_number());
+    EXPECT_EQ(walk["profile"]["source"], "quick");
+    EXPECT_TRUE(walk["summary"]["predicted_ms"]["median"].is_number());
+    for (const char* field : {"prediction_error", "running_prediction_error"})
+        for (const char* statistic : {"median", "p95"})
+            EXPECT_TRUE(walk["summary"][field][statistic].is_number()) << field;
     EXPECT_EQ(walk["method"], "octree");
     EXPECT_EQ(walk["mode"], "exact");
     EXPECT_EQ(walk["frames"], 12);
@@ -54,8 +59,7 @@ TEST_F(Walk, json_keeps_the_contract) {
         for (const char* statistic : {"mean", "median", "p95", "max"})
             EXPECT_TRUE(walk["summary"][field][statistic].is_number()) << field;
     // What was not measured is null, never 0.
-    for (const char* field :
-         {"predicted_ms", "prediction_error", "visible_objects", "lod_error_px", "missing_pixels"})
+    for (const char* field : {"visible_objects", "lod_error_px", "missing_pixels"})
         EXPECT_TRUE(walk["summary"][field].is_null()) << field;
     const std::string hash = walk["summary"]["plan_hash"];
     EXPECT_EQ(hash.size(), 16u);
@@ -80,7 +84,7 @@ TEST_F(Walk, methods_without_an_octree_report_no_build) {
 
 TEST_F(Walk, equal_walks_have_equal_plans_and_other_methods_others) {
     const auto hash = [&](const std::string& options) {
-        return walk_json(kSmallTown + options)["summary"]["plan_hash"];
+        return walk_json(kSmallTown + " --set c1=0.25,c3=2000" + options)["summary"]["plan_hash"];
     };
     const nlohmann::json seed = hash(" --method rhview-seed");
     EXPECT_EQ(seed, hash(" --method rhview-seed --check --submission multi"));
@@ -110,8 +114,9 @@ TEST_F(Walk, rhview_costs_less_than_the_seeds_rule_by_the_constants_it_is_given)
 }
 
 TEST_F(Walk, multi_draw_makes_one_call_per_batch) {
-    const nlohmann::json plain = walk_json(kSmallTown + " --leaf 64")["summary"];
-    const nlohmann::json multi = walk_json(kSmallTown + " --leaf 64 --submission multi")["summary"];
+    const nlohmann::json plain = walk_json(kSmallTown + " --leaf 64 --set c1=0.25,c3=2000")["summary"];
+    const nlohmann::json multi =
+        walk_json(kSmallTown + " --leaf 64 --set c1=0.25,c3=2000 --submission multi")["summary"];
     EXPECT_EQ(multi["draw_calls"]["max"], 1);
     EXPECT_EQ(multi["sub_draws"], plain["draw_calls"]);
     EXPECT_EQ(multi["indices"], plain["indices"]);

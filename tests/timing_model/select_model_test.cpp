@@ -59,7 +59,8 @@ TEST_P(SelectModelKeeps, the_term_that_matters_and_no_other) {
 INSTANTIATE_TEST_SUITE_P(Terms, SelectModelKeeps,
                          testing::Values(KeepCase{Term::Fragments, 3.0}, KeepCase{Term::Queries, 10000.0},
                                          KeepCase{Term::MaterialChanges, 4000.0},
-                                         KeepCase{Term::SubDraws, 200.0}),
+                                         KeepCase{Term::SubDraws, 200.0}, KeepCase{Term::Primitives, 30.0},
+                                         KeepCase{Term::PassedSamples, 5.0}),
                          [](const auto& test) { return std::string(name_of(test.param.term)); });
 
 TEST(SelectModel, recognises_a_machine_that_overlaps_both_sides) {
@@ -75,8 +76,8 @@ TEST(SelectModel, lists_every_candidate_with_its_error_and_the_reason) {
     Constants machine = kCoreMachine;
     machine[index_of(Term::Fragments)] = 3.0;
     const Selection selection = select(machine, Combination::Sum, 1);
-    // The core, then four terms and the maximum, then three terms and the maximum.
-    ASSERT_EQ(selection.candidates.size(), 10u);
+    // The core, then six terms and the maximum, then five terms and the maximum.
+    ASSERT_EQ(selection.candidates.size(), 14u);
     EXPECT_TRUE(selection.candidates[0].kept);
     EXPECT_EQ(selection.candidates[0].note, "the core");
     const auto kept = std::count_if(selection.candidates.begin(), selection.candidates.end(),

@@ -44,6 +44,8 @@ inline Work random_work(Random& random) {
     work.queries = std::floor(random.spread(1.0, 600.0)) - 1.0;
     work.material_changes = std::floor(random.spread(1.0, 3e3));
     work.fragments = std::floor(random.spread(1e4, 4e6));
+    work.primitives = std::floor(work.indices * random.spread(0.01, 0.3));
+    work.passed_samples = std::floor(random.spread(1e4, 4e6));
     return work;
 }
 

@@ -74,6 +74,7 @@ void cross_validate(std::span<const Sample> samples, std::span<const Term> terms
                     Fit& fit) {
     const std::size_t folds = std::min(options.folds, samples.size());
     double sum = 0.0, sum_of_squares = 0.0;
+    fit.hold_out_errors.assign(samples.size(), 0.0);
     for (std::size_t fold = 0; fold < folds; ++fold) {
         std::vector<Sample> seen;
         for (std::size_t i = 0; i < samples.size(); ++i)
@@ -84,6 +85,7 @@ void cross_validate(std::span<const Sample> samples, std::span<const Term> terms
             const double measured = samples[i].measured_ns;
             const double predicted = predict_ns(constants, options.combination, samples[i].work);
             const double error = std::min(std::abs(predicted - measured) / measured, 1.0);
+            fit.hold_out_errors[i] = error;
             sum += error;
             sum_of_squares += error * error;
         }

@@ -52,6 +52,10 @@ std::optional<double> TimingProfile::constant(Term term) const {
             return query_ns;
         case Term::MaterialChanges:
             return material_ns;
+        case Term::Primitives:
+            return primitive_ns;
+        case Term::PassedSamples:
+            return passed_sample_ns;
     }
     return std::nullopt;
 }
@@ -79,6 +83,12 @@ void TimingProfile::set_constant(Term term, double value_ns) {
         case Term::MaterialChanges:
             material_ns = value_ns;
             break;
+        case Term::Primitives:
+            primitive_ns = value_ns;
+            break;
+        case Term::PassedSamples:
+            passed_sample_ns = value_ns;
+            break;
     }
 }
 
@@ -90,6 +100,12 @@ Constants TimingProfile::constants() const {
 
 double TimingProfile::predict_ns(const Work& work) const {
     return rhview::predict_ns(constants(), combination, work);
+}
+
+std::string_view profile_field_of(Term term) {
+    for (const ConstantField& field : kConstantFields)
+        if (field.term == term) return field.name;
+    return "";
 }
 
 TimingProfile make_profile(const Fit& fit) {

@@ -25,6 +25,8 @@ inline constexpr std::array<ConstantField, kTermCount> kConstantFields{{
     {Term::SubDraws, "sub_draw_ns", false},
     {Term::Fragments, "fragment_ns", false},
     {Term::MaterialChanges, "material_ns", false},
+    {Term::Primitives, "primitive_ns", false},
+    {Term::PassedSamples, "passed_sample_ns", false},
 }};
 
 struct PercentileField {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "checks.h"
@@ -12,7 +14,10 @@ namespace {
 
 constexpr std::array kCore{Term::Constant, Term::Indices, Term::DrawCalls};
 constexpr std::array kPlain{Term::Indices, Term::DrawCalls};
-constexpr std::array kExtra{Term::Fragments, Term::Queries, Term::MaterialChanges, Term::SubDraws};
+/// What a term must lower the error by: standard errors of the lowering, and a share of the error.
+constexpr double kDeviations = 2.0, kLeastShare = 0.02;
+constexpr std::array kExtra{Term::Fragments, Term::Queries,    Term::MaterialChanges,
+                            Term::SubDraws,  Term::Primitives, Term::PassedSamples};
 
 struct Trial {
     Candidate candidate;
@@ -50,27 +55,68 @@ std::vector<Trial> larger_models(std::span<const Sample> samples, const Candidat
     return trials;
 }
 
-Trial* best_of(std::vector<Trial>& trials) {
+/// A term whose price is not told from 0 would cost its standard error wherever there is much of it.
+bool is_told_from_0(const Fit& fit, Term term) {
+    const Coefficient* coefficient = fit.find(term);
+    return coefficient != nullptr && coefficient->low_ns > 0.0;
+}
+
+std::optional<Term> added_term(const Candidate& trial, const Candidate& kept) {
+    if (trial.terms.size() == kept.terms.size()) return std::nullopt;
+    return trial.terms.back();
+}
+
+Trial* best_of(std::vector<Trial>& trials, const Candidate& kept) {
     Trial* best = nullptr;
     for (Trial& trial : trials) {
         const std::optional<double>& error = trial.candidate.hold_out_error;
+        const std::optional<Term> added = added_term(trial.candidate, kept);
+        if (error && added && !is_told_from_0(*trial.fit, *added)) continue;
         if (error && (best == nullptr || *error < *best->candidate.hold_out_error)) best = &trial;
     }
     return best;
 }
 
 std::string percent(double share) {
-    return number_text(100.0 * share) + " %";
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.2g %%", 100.0 * share);
+    return text.data();
 }
 
-std::string note_of(const Fit& kept, const Candidate& candidate, bool is_kept, bool is_best) {
-    const double gain = kept.hold_out_error - *candidate.hold_out_error;
-    const std::string threshold = " one standard error, " + percent(kept.hold_out_standard_error);
-    if (is_kept) return "kept: lowers the hold-out error by " + percent(gain) + ", more than" + threshold;
-    if (gain <= 0.0) return "dropped: does not lower the hold-out error";
-    if (gain > kept.hold_out_standard_error && !is_best)
+/// How much `trial` lowers the hold-out error of `kept`, and the standard error of that.
+struct Gain {
+    double mean = 0.0;
+    double standard_error = 0.0;
+
+    [[nodiscard]] double threshold(const Fit& kept) const {
+        return std::max(kDeviations * standard_error, kLeastShare * kept.hold_out_error);
+    }
+};
+
+Gain gain_of(const Fit& kept, const Fit& trial) {
+    const auto n = static_cast<double>(kept.hold_out_errors.size());
+    double sum = 0.0, sum_of_squares = 0.0;
+    for (std::size_t i = 0; i < kept.hold_out_errors.size(); ++i) {
+        const double lower = kept.hold_out_errors[i] - trial.hold_out_errors[i];
+        sum += lower;
+        sum_of_squares += lower * lower;
+    }
+    const double mean = sum / n;
+    return {mean, std::sqrt(std::max(0.0, sum_of_squares / n - mean * mean) / (n - 1.0))};
+}
+
+/// `added` is the term that the trial has more; absent where the combination changed.
+std::string note_of(const Fit& kept, const Fit& trial, std::optional<Term> added, bool is_kept,
+                    bool is_best) {
+    const Gain gain = gain_of(kept, trial);
+    const std::string lowers =
+        "lowers the hold-out error by " + percent(gain.mean) + " ± " + percent(gain.standard_error);
+    if (is_kept) return "kept: " + lowers;
+    if (added && !is_told_from_0(trial, *added)) return "dropped: its price is not told from 0";
+    if (gain.mean <= 0.0) return "dropped: does not lower the hold-out error";
+    if (gain.mean > gain.threshold(kept) && !is_best)
         return "dropped at this step: another term lowers it more";
-    return "dropped: lowers the hold-out error by " + percent(gain) + ", not more than" + threshold;
+    return "dropped: " + lowers + ", not more than " + percent(gain.threshold(kept));
 }
 
 }  // namespace
@@ -89,14 +135,19 @@ Result<Selection> select_model(std::span<const Sample> samples, const FitOptions
     Selection selection{std::move(*core.fit), std::move(*plain), {std::move(core.candidate)}};
     for (bool grows = true; grows;) {
         std::vector<Trial> trials = larger_models(samples, kept, options);
-        Trial* best = best_of(trials);
-        grows = best != nullptr && selection.fit.hold_out_error - *best->candidate.hold_out_error >
-                                       selection.fit.hold_out_standard_error;
+        Trial* best = best_of(trials, kept);
+        if (best != nullptr) {
+            const Gain gain = gain_of(selection.fit, *best->fit);
+            grows = gain.mean > gain.threshold(selection.fit);
+        } else {
+            grows = false;
+        }
         for (Trial& trial : trials) {
             const bool is_best = &trial == best;
             trial.candidate.kept = grows && is_best;
             if (trial.fit)
-                trial.candidate.note = note_of(selection.fit, trial.candidate, trial.candidate.kept, is_best);
+                trial.candidate.note = note_of(selection.fit, *trial.fit, added_term(trial.candidate, kept),
+                                               trial.candidate.kept, is_best);
             selection.candidates.push_back(trial.candidate);
         }
         if (!grows) break;

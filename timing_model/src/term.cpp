@@ -39,6 +39,10 @@ std::string_view name_of(Term term) {
             return "queries";
         case Term::MaterialChanges:
             return "material_changes";
+        case Term::Primitives:
+            return "primitives";
+        case Term::PassedSamples:
+            return "passed_samples";
     }
     return "";
 }
@@ -59,12 +63,17 @@ double amount_of(Term term, const Work& work) {
             return work.queries;
         case Term::MaterialChanges:
             return work.material_changes;
+        case Term::Primitives:
+            return work.primitives;
+        case Term::PassedSamples:
+            return work.passed_samples;
     }
     return 0.0;
 }
 
 bool is_on_gpu(Term term) {
-    return term == Term::Indices || term == Term::Fragments;
+    return term == Term::Indices || term == Term::Fragments || term == Term::Primitives ||
+           term == Term::PassedSamples;
 }
 
 bool is_gpu_bound(const Constants& constants, const Work& work) {

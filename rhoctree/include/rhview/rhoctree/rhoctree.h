@@ -143,11 +143,12 @@ class RhOctree {
     std::size_t leaf_count_ = 0;
 };
 
-/// Options for the cheapest draw lists (`DrawListSolver`) at these costs, of batches with `index_count`
-/// indices in all: leaves no finer than a draw is worth and than the planning time of their visit, records
-/// joined up to an eighth of a draw, replicas up to the bytes of the base order. Derivation:
-/// src/choose_options.cpp.
-OctreeOptions choose_octree_options(const DrawCosts& costs, std::uint64_t index_count);
+/// Options for the cheapest draw lists (`DrawListSolver`) at these costs, for `batch_count` batches with
+/// `index_count` indices in all. Leaves are as fine as what they cut off is worth their planning, and hold
+/// half a draw's worth of indices at least; records are joined up to an eighth of a draw; replicas may take
+/// as much memory as the base order. Derivation: src/choose_options.cpp.
+OctreeOptions choose_octree_options(const DrawCosts& costs, std::uint64_t index_count,
+                                    std::size_t batch_count);
 
 /// Builds the octree of `batches`; batch i is `BatchId{i}`. No batch, or batches without triangles, give no
 /// node. Deterministic. Errors name the batch and triangle: an index out of range, a corner that is not

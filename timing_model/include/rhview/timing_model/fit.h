@@ -58,6 +58,7 @@ struct Fit {
     /// Mean of min(|predicted - measured| / measured, 1) over samples predicted by a fit that never saw them.
     double hold_out_error = 0.0;
     double hold_out_standard_error = 0.0;
+    std::vector<double> hold_out_errors;  ///< of each sample, as above
     std::size_t samples = 0;
     std::size_t outliers = 0;    ///< samples with less than a tenth of the full weight
     double timer_step_ns = 0.0;  ///< 0: none that matters was found; otherwise the standard errors hold it
@@ -102,10 +103,12 @@ struct Selection {
 };
 
 /// Starts from c0 + c1·V + c3·N and adds, one at a time, the best of fragments, queries, material changes,
-/// sub-draws and the maximum in place of the sum, as long as that lowers the hold-out error by more than its
-/// standard error (Hastie, Tibshirani & Friedman 2009, 7.10: the smallest model within one standard error).
-/// Errors: those of `fit_terms` for the core and the plain form. A candidate that cannot be fitted is listed
-/// so.
+/// sub-draws, primitives, passed samples and the maximum in place of the sum, as long as that lowers the
+/// hold-out error by more than two standard errors of the lowering, taken sample by sample, and by a
+/// fiftieth of it: both models are judged on the same samples, so what is hard in a sample for both says
+/// nothing of their difference; and as long as its 95 % interval lies above 0 (after Hastie, Tibshirani &
+/// Friedman 2009, 7.10). Errors: those of `fit_terms` for the core and the plain form. A candidate that
+/// cannot be fitted is listed so.
 Result<Selection> select_model(std::span<const Sample> samples, const FitOptions& options = {});
 
 }  // namespace rhview

@@ -6,10 +6,10 @@
 ///
 /// File: JSON, schema `rhview.profile/1`. Required: `schema`, `device` {`renderer`, `version`}, `c0_ns`,
 /// `c1_ns`, `c3_ns`. Optional, absent or null where not measured: `query_ns`, `sub_draw_ns`, `fragment_ns`,
-/// `material_ns`, `combination` ("sum" or "max"), `timer` {`name`, `why`}, `date`, `note`, `samples`,
-/// `hold_out_error`, `r_squared`, `standard_errors` {the constants' names}, `residuals` {`p5`, `p50`, `p95`,
-/// `absolute_p50`, `absolute_p95`}. Unknown fields are ignored, so that later versions may add some. Writing
-/// and reading keeps every bit of a number.
+/// `material_ns`, `primitive_ns`, `passed_sample_ns`, `combination` ("sum" or "max"), `timer` {`name`,
+/// `why`}, `date`, `note`, `samples`, `hold_out_error`, `r_squared`, `standard_errors` {the constants'
+/// names}, `residuals` {`p5`, `p50`, `p95`, `absolute_p50`, `absolute_p95`}. Unknown fields are ignored, so
+/// that later versions may add some. Writing and reading keeps every bit of a number.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ struct TimingProfile {
     double c0_ns = 0.0;  ///< per frame
     double c1_ns = 0.0;  ///< per index
     double c3_ns = 0.0;  ///< per draw call
-    std::optional<double> query_ns, sub_draw_ns, fragment_ns, material_ns;
+    std::optional<double> query_ns, sub_draw_ns, fragment_ns, material_ns, primitive_ns, passed_sample_ns;
     Combination combination = Combination::Sum;
 
     std::array<std::optional<double>, kTermCount> standard_errors_ns;  ///< by `Term`
@@ -50,6 +50,9 @@ struct TimingProfile {
     /// What the model says of the work; terms that the model lacks cost nothing. Thread-safe, no allocation.
     [[nodiscard]] double predict_ns(const Work& work) const;
 };
+
+/// The constant's name in the file: "c1_ns".
+std::string_view profile_field_of(Term term);
 
 /// The constants and errors of a fit; the caller adds device, timer, date, and `query_ns` if measured apart.
 TimingProfile make_profile(const Fit& fit);

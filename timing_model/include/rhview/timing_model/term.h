@@ -4,10 +4,11 @@
 /// \file
 /// The terms that a timing model may have, and how they make a time:
 ///
-///     Sum              T = c0 + c1·V + c_f·F  +  c3·N + c_s·S + c_q·Q + c_m·M
-///     MaxOfCpuAndGpu   T = c0 + max(c1·V + c_f·F,  c3·N + c_s·S + c_q·Q + c_m·M)
+///     Sum              T = c0 + c1·V + c_p·P + c_f·F + c_d·D  +  c3·N + c_s·S + c_q·Q + c_m·M
+///     MaxOfCpuAndGpu   T = c0 + max(c1·V + c_p·P + c_f·F + c_d·D,  c3·N + c_s·S + c_q·Q + c_m·M)
 ///
-/// V, F (fragments) are the GPU's side, N, S (sub-draws), Q (queries), M (material changes) the CPU's.
+/// V, P (primitives after clipping), F (fragments shaded), D (samples that passed the depth test) are the
+/// GPU's side, N, S (sub-draws), Q (queries), M (material changes) the CPU's.
 /// Source: c1·V + c3·N is Eq. 1 of Serpa & Rodrigues 2019 (RHView); the maximum follows Funkhouser & Séquin
 /// 1993 and Wimmer & Wonka 2003.
 #pragma once
@@ -20,9 +21,20 @@
 
 namespace rhview {
 
-enum class Term { Constant, Indices, DrawCalls, SubDraws, Fragments, Queries, MaterialChanges };
-inline constexpr std::array kAllTerms{Term::Constant,  Term::Indices, Term::DrawCalls,      Term::SubDraws,
-                                      Term::Fragments, Term::Queries, Term::MaterialChanges};
+enum class Term {
+    Constant,
+    Indices,
+    DrawCalls,
+    SubDraws,
+    Fragments,
+    Queries,
+    MaterialChanges,
+    Primitives,
+    PassedSamples
+};
+inline constexpr std::array kAllTerms{Term::Constant,        Term::Indices,    Term::DrawCalls,
+                                      Term::SubDraws,        Term::Fragments,  Term::Queries,
+                                      Term::MaterialChanges, Term::Primitives, Term::PassedSamples};
 inline constexpr std::size_t kTermCount = kAllTerms.size();
 
 enum class Combination { Sum, MaxOfCpuAndGpu };

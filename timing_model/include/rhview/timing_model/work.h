@@ -7,15 +7,17 @@
 
 namespace rhview {
 
-/// Counts of one frame, as the executor makes the calls; finite and not negative. `fragments` is the number
-/// of fragments shaded, measured or estimated by the caller; 0 where nobody counts them.
+/// Counts of one frame, as the executor makes the calls; finite and not negative. What only the device can
+/// count (primitives, fragments, samples) is measured or estimated by the caller; 0 where nobody counts it.
 struct Work {
     double indices = 0.0;     ///< V, three per triangle
     double draw_calls = 0.0;  ///< N, a multi-draw is one
     double sub_draws = 0.0;   ///< index ranges; equals `draw_calls` for plain draws
     double queries = 0.0;
     double material_changes = 0.0;
-    double fragments = 0.0;
+    double fragments = 0.0;       ///< fragment shader invocations
+    double primitives = 0.0;      ///< triangles left after clipping, back-facing ones among them
+    double passed_samples = 0.0;  ///< samples that passed the depth test
 };
 
 struct Sample {
