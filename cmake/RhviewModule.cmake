@@ -18,7 +18,7 @@ set(RHVIEW_FLOOR_pipeline 3)
 set(RHVIEW_FLOOR_gl 4)
 set(RHVIEW_FLOOR_baselines 4)
 
-# What an engine takes: needs GLM alone. rhview::rhview links those of them that are built; the package's default
+# What an engine takes: needs GLM and oneTBB. rhview::rhview links those of them that are built; the package's default
 # component holds them.
 set(RHVIEW_CORE_MODULES base frustum timing_model rhoctree pipeline)
 
@@ -37,6 +37,10 @@ function(rhview_private_options target)
       target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all
         -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
       target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+    endif()
+    if(RHVIEW_FUZZ)
+      # Counters for the fuzzer to see new paths by; its own loop is linked into its targets only.
+      target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
     endif()
   endif()
 endfunction()

@@ -12,8 +12,10 @@ set -euo pipefail
 packages=(
     # tools
     g++ cmake ninja-build git python3 pkg-config clang-format
+    # the fuzzer: Clang, its sanitizers and libFuzzer
+    clang libclang-rt-dev
     # the core
-    libglm-dev
+    libglm-dev libtbb-dev
     # the timing model, to build it only
     libeigen3-dev
     # gl: entry points, contexts without a window, a software renderer, PNG files

@@ -2,21 +2,30 @@
 # SPDX-FileCopyrightText: 2026 The rhview authors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds and tests: optimised with warnings as errors, then with the sanitizers.
+# Installs what is missing, builds and tests: optimised with warnings as errors, then with the sanitizers; then a
+# minute of fuzzing.
 # Stops at the first step that fails; the last lines are CTest's own summary.
 #
-# usage: scripts/test.sh [--release-only | --asan-only]
+# usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only]
 
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 presets=(ci asan)
+fuzz=true
 case "${1-}" in
     '') ;;
-    --release-only) presets=(ci) ;;
-    --asan-only) presets=(asan) ;;
+    --release-only)
+        presets=(ci)
+        fuzz=false
+        ;;
+    --asan-only)
+        presets=(asan)
+        fuzz=false
+        ;;
+    --fuzz-only) presets=() ;;
     *)
-        echo "test: unknown option '$1'; usage: scripts/test.sh [--release-only | --asan-only]" >&2
+        echo "test: unknown option '$1'; usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only]" >&2
         exit 2
         ;;
 esac
@@ -39,3 +48,16 @@ for preset in "${presets[@]}"; do
     phase "$preset: test"
     ctest --preset "$preset" -j2 --output-on-failure </dev/null
 done
+
+if $fuzz; then
+    phase "fuzz: build"
+    cmake --preset fuzz </dev/null
+    cmake --build --preset fuzz </dev/null
+    phase "fuzz: 60 seconds of baked files"
+    corpus="$root/build/fuzz/corpus"
+    rm -rf "$corpus"
+    "$root/build/fuzz/tests/fuzz/rhview_rho_corpus" "$corpus" </dev/null
+    # What it finds stays in the build folder; any finding ends the script.
+    (cd "$root/build/fuzz" && ASAN_OPTIONS=detect_leaks=0 tests/fuzz/rhview_rho_fuzzer -max_total_time=60 \
+        -max_len=262144 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 "$corpus" </dev/null)
+fi

@@ -138,7 +138,7 @@ Result<std::filesystem::path> output_path(const CalibrateOptions& options) {
 /// The scenes with what the device needs of them; they stay where they are.
 struct Subjects {
     std::vector<std::string> names;
-    std::vector<std::unique_ptr<SceneAndPath>> scenes;
+    std::vector<std::unique_ptr<LoadedScene>> scenes;
     std::vector<gl::SceneBuffers> buffers;
 
     Status load(const std::string& scene) {
@@ -147,9 +147,9 @@ struct Subjects {
         else
             names.push_back(scene);
         for (const std::string& name : names) {
-            Result<SceneAndPath> loaded = load_scene(name);
+            Result<LoadedScene> loaded = load_scene(name);
             if (!loaded) return loaded.error();
-            scenes.push_back(std::make_unique<SceneAndPath>(std::move(loaded).value()));
+            scenes.push_back(std::make_unique<LoadedScene>(std::move(loaded).value()));
             Result<gl::SceneBuffers> uploaded = gl::SceneBuffers::upload(scenes.back()->scene);
             if (!uploaded) return uploaded.error();
             buffers.push_back(std::move(uploaded).value());

@@ -141,4 +141,9 @@ Result<ChosenConstants> choose_constants(const WantedConstants& wanted, const st
     return chosen;
 }
 
+DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw) {
+    if (multi_draw) return {profile.c1_ns, profile.sub_draw_ns.value_or(profile.c3_ns), profile.c3_ns};
+    return {profile.c1_ns, profile.c3_ns + profile.sub_draw_ns.value_or(0.0), 0.0};
+}
+
 }  // namespace rhview::cli

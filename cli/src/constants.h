@@ -10,6 +10,7 @@
 
 #include "rhview/base/result.h"
 #include "rhview/gl/context.h"
+#include "rhview/rhoctree/draw_costs.h"
 #include "rhview/scenes/named_scene.h"
 #include "rhview/timing_model/profile.h"
 
@@ -48,5 +49,8 @@ struct ChosenConstants {
 Result<ChosenConstants> choose_constants(const WantedConstants& wanted, const std::string& scene_spec,
                                          const SceneAndPath& loaded, const gl::DeviceInfo& device, int width,
                                          int height);
+
+/// What a range costs: a call of its own, or a part of its batch's multi-draw.
+DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw);
 
 }  // namespace rhview::cli

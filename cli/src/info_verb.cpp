@@ -15,7 +15,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Scene& scene) {
+Json to_json(const std::optional<BakedParts>& baked) {
+    if (!baked) return nullptr;
+    const RhOctree& octree = baked->octree.octree;
+    return {{"source", baked->provenance.source},
+            {"baked_by", baked->provenance.baked_by},
+            {"load_ms", baked->load_ms},
+            {"nodes", octree.nodes().size()},
+            {"leaves", octree.leaf_count()},
+            {"max_leaf_triangles", baked->octree.options.max_leaf_triangles},
+            {"replica_bytes", octree.replica_bytes()},
+            {"replica_budget", baked->octree.options.replica_budget},
+            {"c1_ns", baked->octree.options.costs.index_ns},
+            {"c3_ns", baked->octree.options.costs.draw_ns}};
+}
+
+Json to_json(const LoadedScene& loaded) {
+    const Scene& scene = loaded.scene;
     const Aabb bounds = scene.bounds();
     const auto world = [&](const glm::vec3& p) {
         const glm::dvec3 w = scene.origin + glm::dvec3(p);
@@ -40,7 +56,8 @@ Json to_json(const Scene& scene) {
             {"materials", materials},
             {"extent", {{"min", world(bounds.min)}, {"max", world(bounds.max)}}},
             {"dropped_triangles", scene.dropped_triangles},
-            {"warnings", scene.warnings}};
+            {"warnings", scene.warnings},
+            {"baked", to_json(loaded.baked)}};
 }
 
 std::string grouped(std::uint64_t value) {
@@ -53,7 +70,19 @@ std::string grouped(std::uint64_t value) {
     return text;
 }
 
-void print(const Scene& scene) {
+void print(const BakedParts& baked) {
+    const RhOctree& octree = baked.octree.octree;
+    fmt::print(
+        "  baked       from {} by {}: {} nodes, {} leaves of at most {} triangles, {} replicas of {} MiB; "
+        "loaded in "
+        "{:.1f} ms\n",
+        baked.provenance.source, baked.provenance.baked_by, grouped(octree.nodes().size()),
+        grouped(octree.leaf_count()), grouped(baked.octree.options.max_leaf_triangles),
+        grouped(octree.replicas().size()), octree.replica_bytes() >> 20, baked.load_ms);
+}
+
+void print(const LoadedScene& loaded) {
+    const Scene& scene = loaded.scene;
     const Aabb bounds = scene.bounds();
     const glm::vec3 extent = bounds.extent();
     std::size_t two_sided = 0, alpha_tested = 0;
@@ -75,6 +104,7 @@ void print(const Scene& scene) {
                extent.y, extent.z, scene.origin.x + static_cast<double>(bounds.centre().x),
                scene.origin.y + static_cast<double>(bounds.centre().y),
                scene.origin.z + static_cast<double>(bounds.centre().z));
+    if (loaded.baked) print(*loaded.baked);
     for (const std::string& warning : scene.warnings) fmt::print("  warning     {}\n", warning);
 }
 
@@ -87,16 +117,15 @@ Result<int> run_info(const InfoOptions& options) {
         if (!file) return file.error();
         json.emplace(std::move(file).value());
     }
-    Result<SceneAndPath> loaded = [&] {
+    Result<LoadedScene> loaded = [&] {
         Progress progress;
         progress.say("loading " + options.scene);
         return load_scene(options.scene);
     }();
     if (!loaded) return loaded.error();
-    print(loaded->scene);
+    print(*loaded);
     if (json) {
-        const std::string text =
-            to_json(loaded->scene).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        const std::string text = to_json(*loaded).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
         if (Status status = json->commit(text); !status) return status.error();
     }
     return kDone;

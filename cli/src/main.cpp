@@ -17,7 +17,9 @@
 namespace rhview::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> kVerbs{"scenes", "info", "calibrate", "walk"};
+constexpr std::array<std::string_view, 5> kVerbs{"scenes", "info", "calibrate", "bake", "walk"};
+
+constexpr const char* kSceneHelp = "A file (.glb .gltf .obj .ply .rho) or a named scene";
 
 int fail(std::string_view sentence) {
     fmt::print(stderr, "rhview: {}\n", sentence);
@@ -30,8 +32,20 @@ void print_log(LogLevel level, std::string_view message) {
 
 void add_info(CLI::App& app, InfoOptions& options) {
     CLI::App* info = app.add_subcommand("info", "What is in a scene");
-    info->add_option("SCENE", options.scene, "A file (.glb .gltf .obj .ply) or a named scene")->required();
+    info->add_option("SCENE", options.scene, kSceneHelp)->required();
     info->add_option("--json", options.json, "Write it as JSON")->type_name("FILE");
+}
+
+void add_octree_options(CLI::App& verb, std::optional<std::uint32_t>& leaf, double& replica_budget) {
+    verb.add_option("--leaf", leaf,
+                    "Triangles per octree leaf, at most; default: rhview chooses, the others take 4096")
+        ->type_name("N")
+        ->check(CLI::Range(1u, 4'000'000'000u));
+    verb.add_option("--replica-budget", replica_budget,
+                    "Bytes of rhview's replicas, as a multiple of the source indices' bytes")
+        ->type_name("R")
+        ->check(CLI::Range(0.0, 1'000.0))
+        ->capture_default_str();
 }
 
 void add_calibrate(CLI::App& app, CalibrateOptions& options) {
@@ -47,7 +61,7 @@ void add_calibrate(CLI::App& app, CalibrateOptions& options) {
 
 void add_walk(CLI::App& app, WalkOptions& options) {
     CLI::App* walk = app.add_subcommand("walk", "One culling method along a camera path, headless");
-    walk->add_option("SCENE", options.scene, "A file (.glb .gltf .obj .ply) or a named scene")->required();
+    walk->add_option("SCENE", options.scene, kSceneHelp)->required();
     walk->add_option("--method", options.method, fmt::format("{}", fmt::join(method_names(), ", ")))
         ->type_name("M")
         ->capture_default_str();
@@ -72,15 +86,7 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
-    walk->add_option("--leaf", options.leaf,
-                     "Triangles per octree leaf, at most; default: rhview chooses, the others take 4096")
-        ->type_name("N")
-        ->check(CLI::Range(1u, 4'000'000'000u));
-    walk->add_option("--replica-budget", options.replica_budget,
-                     "Bytes of rhview's replicas, as a multiple of the source indices' bytes")
-        ->type_name("R")
-        ->check(CLI::Range(0.0, 1'000.0))
-        ->capture_default_str();
+    add_octree_options(*walk, options.leaf, options.replica_budget);
     walk->add_option("--submission", options.submission,
                      "plain: a call per range; multi: a multi-draw per batch")
         ->capture_default_str();
@@ -100,6 +106,25 @@ void add_walk(CLI::App& app, WalkOptions& options) {
     walk->add_option("--images-every", options.images_every, "Another interval for --images")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000));
+}
+
+void add_bake(CLI::App& app, BakeOptions& options) {
+    CLI::App* bake = app.add_subcommand("bake", "Build a scene's octree once and save both");
+    bake->add_option("SCENE", options.scene, kSceneHelp)->required();
+    bake->add_option("-o,--output", options.output, "The baked file")->type_name("FILE.rho")->required();
+    bake->add_option("--method", options.method, "Whose octree: octree, rhview-seed or rhview")
+        ->type_name("M")
+        ->capture_default_str();
+    add_octree_options(*bake, options.leaf, options.replica_budget);
+    bake->add_option(
+            "--profile", options.profile,
+            "Timing constants (rhview.profile/1) that leaves and replicas are chosen by; default: this "
+            "machine's")
+        ->type_name("FILE");
+    bake->add_option("--set", options.set, "Timing constants in ns: c1 per index, c3 per draw call")
+        ->type_name("c1=…,c3=…");
+    bake->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
+        ->type_name("FILE");
 }
 
 /// CLI11's message as one sentence.
@@ -124,6 +149,8 @@ int run(int argc, char** argv) {
     add_calibrate(app, calibrate);
     WalkOptions walk;
     add_walk(app, walk);
+    BakeOptions bake;
+    add_bake(app, bake);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& done) {
@@ -139,6 +166,7 @@ int run(int argc, char** argv) {
     }
     Result<int> code = app.got_subcommand(scenes->get_name()) ? run_scenes()
                        : app.got_subcommand("info")           ? run_info(info)
+                       : app.got_subcommand("bake")           ? run_bake(bake)
                        : app.got_subcommand("calibrate")      ? run_calibrate(calibrate)
                                                               : run_walk(walk);
     if (code && std::fflush(stdout) != 0)

@@ -25,7 +25,9 @@ std::vector<StaticObject> static_objects(const Scene& scene) {
     return objects;
 }
 
-/// The rivals' octree is the paper's: leaves in source order, no replicas.
+}  // namespace
+
+// The rivals' octree is the paper's: leaves in source order, no replicas.
 OctreeOptions octree_options_of(std::string_view method, const Scene& scene, const MethodOptions& options) {
     OctreeOptions result;
     if (method == "rhview") {
@@ -37,8 +39,6 @@ OctreeOptions octree_options_of(std::string_view method, const Scene& scene, con
     if (options.max_leaf_triangles) result.max_leaf_triangles = *options.max_leaf_triangles;
     return result;
 }
-
-}  // namespace
 
 std::vector<std::string> method_names() {
     return {"none", "frustum", "octree", "rhview-seed", "rhview"};
@@ -56,7 +56,7 @@ std::unique_ptr<FramePlanner> make_reference(const Scene& scene) {
 }
 
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
-                                      const MethodOptions& options) {
+                                      const MethodOptions& options, const BakedOctree* baked) {
     PreparedMethod prepared;
     if (method == "none") {
         prepared.planner = make_reference(scene);
@@ -66,13 +66,18 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
         prepared.planner = std::make_unique<FrustumObjects>(static_objects(scene));
         return prepared;
     }
-    const OctreeOptions octree_options = octree_options_of(method, scene, options);
-    const gl::WallTimer timer;
-    Result<RhOctree> octree = build_octree(scene.triangle_batches(), octree_options);
-    if (!octree) return Error{scene.name + ": " + octree.error().message};
-    prepared.build_ms = timer.elapsed_ms();
-    prepared.max_leaf_triangles = octree_options.max_leaf_triangles;
-    prepared.octree = std::make_unique<RhOctree>(std::move(octree).value());
+    if (baked != nullptr) {
+        prepared.max_leaf_triangles = baked->options.max_leaf_triangles;
+        prepared.octree = std::make_unique<RhOctree>(baked->octree);
+    } else {
+        const OctreeOptions octree_options = octree_options_of(method, scene, options);
+        const gl::WallTimer timer;
+        Result<RhOctree> octree = build_octree(scene.triangle_batches(), octree_options);
+        if (!octree) return Error{scene.name + ": " + octree.error().message};
+        prepared.build_ms = timer.elapsed_ms();
+        prepared.max_leaf_triangles = octree_options.max_leaf_triangles;
+        prepared.octree = std::make_unique<RhOctree>(std::move(octree).value());
+    }
     if (method == "octree")
         prepared.planner = std::make_unique<OctreeLeaves>(*prepared.octree);
     else if (method == "rhview-seed")

@@ -12,7 +12,7 @@
 
 #include "rhview/base/result.h"
 #include "rhview/pipeline/frame_planner.h"
-#include "rhview/rhoctree/rhoctree.h"
+#include "rhview/rhoctree/baked_octree.h"
 #include "rhview/scenes/scene.h"
 
 namespace rhview::cli {
@@ -38,9 +38,13 @@ struct MethodOptions {
     DrawCosts costs;                                  ///< what `rhview` plans by
 };
 
-/// Builds what `method` needs; `scene` outlives it.
+/// What `method` has its octree built with.
+OctreeOptions octree_options_of(std::string_view method, const Scene& scene, const MethodOptions& options);
+
+/// Builds what `method` needs; `scene` outlives it. A scene that brings its octree (`baked`) is not built
+/// again.
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
-                                      const MethodOptions& options);
+                                      const MethodOptions& options, const BakedOctree* baked = nullptr);
 
 /// The planner of what the picture must equal, whatever the order of the static indices.
 std::unique_ptr<FramePlanner> make_reference(const Scene& scene);

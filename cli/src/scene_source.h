@@ -3,14 +3,32 @@
 
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "rhview/base/result.h"
-#include "rhview/scenes/named_scene.h"
+#include "rhview/rhoctree/baked_octree.h"
+#include "rhview/scenes/baked_scene.h"
 
 namespace rhview::cli {
 
-/// SCENE as the user names it: a named scene with parameters, or a file; with the path that walks it.
-Result<SceneAndPath> load_scene(const std::string& spec);
+/// What a baked file brings beside the scene.
+struct BakedParts {
+    BakedOctree octree;
+    SceneProvenance provenance;
+    double load_ms = 0.0;  ///< mapping and checking all of it
+};
+
+struct LoadedScene : SceneAndPath {
+    std::optional<BakedParts> baked;
+};
+
+/// SCENE as the user names it: a named scene with parameters, or a file, baked ones too; with the path that
+/// walks it.
+Result<LoadedScene> load_scene(const std::string& spec);
+
+/// Whether `file` is named as a baked file.
+bool is_baked_name(const std::filesystem::path& file);
 
 }  // namespace rhview::cli

@@ -40,7 +40,7 @@ struct WalkOptions {
     int frames = 120;
     int warmup = 8;
     int repeats = 1;
-    std::optional<std::uint32_t> leaf;
+    std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
     double replica_budget = 1.0;
     bool check = false;
     int check_every = 1;
@@ -51,10 +51,22 @@ struct WalkOptions {
     std::optional<std::filesystem::path> images;
 };
 
+struct BakeOptions {
+    std::string scene;
+    std::filesystem::path output;
+    std::string method = "rhview";
+    std::optional<std::uint32_t> leaf;
+    double replica_budget = 1.0;
+    std::optional<std::filesystem::path> profile;
+    std::string set;
+    std::optional<std::filesystem::path> path;
+};
+
 /// Each verb prints its answer and returns the exit code, or an error that ends the program with `kBadInput`.
 Result<int> run_scenes();
 Result<int> run_info(const InfoOptions& options);
 Result<int> run_calibrate(const CalibrateOptions& options);
 Result<int> run_walk(const WalkOptions& options);
+Result<int> run_bake(const BakeOptions& options);
 
 }  // namespace rhview::cli

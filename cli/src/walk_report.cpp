@@ -168,6 +168,7 @@ std::string to_json(const WalkReport& report) {
     json["frames"] = report.frames.size();
     json["size"] = {report.width, report.height};
     json["build"] = {{"ms", or_null(report.build.ms)},
+                     {"load_ms", or_null(report.build.load_ms)},
                      {"nodes", or_null(report.build.nodes)},
                      {"leaves", or_null(report.build.leaves)},
                      {"replicas", or_null(report.build.replicas)},
@@ -219,9 +220,10 @@ std::string to_table(const WalkReport& report) {
         report.scene.dynamic_objects > 0 ? fmt::format(", {} dynamic objects", report.scene.dynamic_objects)
                                          : "");
     if (report.build.nodes)
-        table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, built in {:.0f} ms\n",
+        table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, {} in {:.0f} ms\n",
                              *report.build.nodes, *report.build.leaves, report.leaf.value_or(0),
-                             report.build.ms.value_or(0.0));
+                             report.build.load_ms ? "loaded" : "built",
+                             report.build.load_ms.value_or(report.build.ms.value_or(0.0)));
     if (report.build.replica_bytes > 0)
         table += fmt::format(
             "replicas: {}, {:.2f} times the source's index bytes\n", report.build.replicas.value_or(0),

@@ -43,6 +43,7 @@ struct WalkReport {
     } device;
     struct {
         std::optional<double> ms;
+        std::optional<double> load_ms;  ///< of a baked file, which is not built
         std::optional<std::uint64_t> nodes;
         std::optional<std::uint64_t> leaves;
         std::optional<std::uint64_t> replicas;

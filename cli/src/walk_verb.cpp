@@ -246,8 +246,9 @@ class Walk {
     std::vector<float> reference_depths_;
 };
 
-WalkReport describe(const WalkOptions& options, const Scene& scene, const PreparedMethod& method,
+WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const PreparedMethod& method,
                     const gl::DeviceInfo& device, PictureSize size) {
+    const Scene& scene = loaded.scene;
     WalkReport report;
     report.scene = {scene.name,
                     scene.static_triangles(),
@@ -269,25 +270,25 @@ WalkReport describe(const WalkOptions& options, const Scene& scene, const Prepar
     report.mode = options.mode;
     report.submission = options.submission;
     report.leaf = method.max_leaf_triangles;
+    if (loaded.baked) report.build.load_ms = loaded.baked->load_ms;
     report.width = size.width;
     report.height = size.height;
     return report;
 }
 
-/// What a range costs: a call of its own, or a part of its batch's multi-draw.
-DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw) {
-    if (multi_draw) return {profile.c1_ns, profile.sub_draw_ns.value_or(profile.c3_ns), profile.c3_ns};
-    return {profile.c1_ns, profile.c3_ns + profile.sub_draw_ns.value_or(0.0), 0.0};
-}
-
-Result<SceneAndPath> load(const WalkOptions& options) {
+Result<LoadedScene> load(const WalkOptions& options) {
     std::optional<CameraPath> path;
     if (options.path) {
         Result<CameraPath> from_file = load_camera_path(*options.path);
         if (!from_file) return from_file.error();
         path = std::move(from_file).value();
     }
-    Result<SceneAndPath> loaded = load_scene(options.scene);
+    Result<LoadedScene> loaded = load_scene(options.scene);
+    if (loaded && loaded->baked && options.leaf)
+        return Error{fmt::format(
+            "--leaf {}: {} brings its octree, with leaves of at most {} triangles; bake it again with "
+            "another --leaf",
+            *options.leaf, options.scene, loaded->baked->octree.options.max_leaf_triangles)};
     if (loaded && path) loaded->path = std::move(*path);
     return loaded;
 }
@@ -307,7 +308,7 @@ Result<int> run_walk(const WalkOptions& options) {
     Result<gl::Context> context = gl::Context::create_headless();
     if (!context) return context.error();
     progress.say("loading " + options.scene);
-    const Result<SceneAndPath> loaded = load(options);
+    const Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
     progress.say("choosing timing constants");
     const Result<ChosenConstants> chosen =
@@ -321,10 +322,11 @@ Result<int> run_walk(const WalkOptions& options) {
     progress.say("building");
     MethodOptions method_options{options.leaf, options.replica_budget, {}};
     if (constants) method_options.costs = draw_costs(constants->profile, options.submission == "multi");
-    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, method_options);
+    Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, method_options,
+                                                   loaded->baked ? &loaded->baked->octree : nullptr);
     if (!method) return method.error();
 
-    WalkReport report = describe(options, loaded->scene, *method, context->device(), *size);
+    WalkReport report = describe(options, *loaded, *method, context->device(), *size);
     if (constants)
         report.profile = {constants->profile, constants->source, constants->told};
     else

@@ -72,7 +72,7 @@ std::vector<Block> cut_blocks(const Scene& scene, std::span<const std::uint32_t>
         const std::span<const std::uint32_t> indices = static_indices.empty()
                                                            ? std::span<const std::uint32_t>(batch.indices)
                                                            : static_indices.subspan(first_of_batch, count);
-        const std::vector<glm::vec3>& positions = scene.pools[batch.pool].positions;
+        const std::span<const glm::vec3> positions = scene.pools[batch.pool].positions;
         for (std::uint32_t first = 0; first < count; first += size) {
             Block block{{BatchId{b}, first_of_batch + first, std::min(size, count - first)}, {}};
             for (const std::uint32_t index : indices.subspan(first, block.range.index_count))

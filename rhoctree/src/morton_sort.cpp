@@ -3,8 +3,10 @@
 
 #include "morton_sort.h"
 
-#include <algorithm>
-#include <array>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -14,8 +16,9 @@ namespace rhview {
 namespace {
 
 constexpr double kCells = 1 << kMortonLevels;
-constexpr unsigned kDigitBits = 11;  // a pass's counters fit the first-level cache
-constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+constexpr std::uint32_t kGrain = 1u << 15;  // triangles: long against the start of a task
+
+using IdRange = tbb::blocked_range<std::uint32_t>;
 
 /// Moves bit i of a 21-bit number to bit 3·i.
 std::uint64_t spread_bits(std::uint64_t x) {
@@ -34,73 +37,190 @@ glm::dvec3 corner_sum(const TriangleBatch& batch, std::size_t triangle) {
            glm::dvec3(batch.positions[corner[2]]);
 }
 
-Status check_batch(const TriangleBatch& batch, std::size_t batch_index) {
-    const auto where = [&](std::size_t index) {
-        return "batch " + std::to_string(batch_index) + ", triangle " + std::to_string(index / 3) + ": ";
-    };
-    if (batch.indices.size() % 3 != 0)
-        return Error{"batch " + std::to_string(batch_index) + " has " + std::to_string(batch.indices.size()) +
-                     " indices, which is no multiple of three"};
-    for (std::size_t i = 0; i < batch.indices.size(); ++i) {
-        if (batch.indices[i] >= batch.positions.size())
-            return Error{where(i) + "index " + std::to_string(batch.indices[i]) + " is out of range (" +
-                         std::to_string(batch.positions.size()) + " vertices)"};
-        const glm::vec3& p = batch.positions[batch.indices[i]];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            return Error{where(i) + "a corner is not finite; drop the triangle first"};
-    }
-    return success();
+bool is_finite(const glm::vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Least-significant-digit radix sort: stable, so equal codes keep their order.
-void radix_sort(std::vector<MortonTriangle>& triangles) {
-    std::vector<MortonTriangle> other(triangles.size());
-    for (unsigned shift = 0; shift < 3 * kMortonLevels; shift += kDigitBits) {
-        std::array<std::uint32_t, kDigits> offset{};
-        for (const MortonTriangle& t : triangles) ++offset[(t.code >> shift) & (kDigits - 1)];
-        if (std::ranges::find(offset, triangles.size()) != offset.end())
-            continue;  // one digit: sorted already
-        std::uint32_t sum = 0;
-        for (std::uint32_t& count : offset) sum += std::exchange(count, sum);
-        for (const MortonTriangle& t : triangles) other[offset[(t.code >> shift) & (kDigits - 1)]++] = t;
-        triangles.swap(other);
-    }
+/// The place of the first index that is out of range or of a corner that is not finite; else their number.
+std::size_t first_bad_index(const TriangleBatch& batch) {
+    const std::size_t count = batch.indices.size();
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, count, 3 * std::size_t{kGrain}), count,
+        [&](const tbb::blocked_range<std::size_t>& part, std::size_t bad) {
+            for (std::size_t i = part.begin(); i < std::min(part.end(), bad); ++i)
+                if (batch.indices[i] >= batch.positions.size() ||
+                    !is_finite(batch.positions[batch.indices[i]]))
+                    return i;
+            return bad;
+        },
+        [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }
+
+Status check_batch(const TriangleBatch& batch, std::size_t number) {
+    const std::string name = "batch " + std::to_string(number);
+    if (batch.indices.size() % 3 != 0)
+        return Error{name + " has " + std::to_string(batch.indices.size()) +
+                     " indices, which is no multiple of three"};
+    const std::size_t bad = first_bad_index(batch);
+    if (bad == batch.indices.size()) return success();
+    const std::string where = name + ", triangle " + std::to_string(bad / 3) + ": ";
+    if (batch.indices[bad] >= batch.positions.size())
+        return Error{where + "index " + std::to_string(batch.indices[bad]) + " is out of range (" +
+                     std::to_string(batch.positions.size()) + " vertices)"};
+    return Error{where + "a corner is not finite; drop the triangle first"};
+}
+
+struct Extent {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+};
+
+/// Of the triangles' corner sums. Minima and maxima are the same in any order.
+Extent extent_of(std::span<const TriangleBatch> batches, const TriangleIds& ids) {
+    return tbb::parallel_reduce(
+        IdRange(0, ids.count(), kGrain), Extent(),
+        [&](const IdRange& range, Extent extent) {
+            ids.for_each_part(range.begin(), range.end(),
+                              [&](std::uint32_t b, std::uint32_t first, std::uint32_t end) {
+                                  for (std::uint32_t t = first; t < end; ++t) {
+                                      const glm::dvec3 sum = corner_sum(batches[b], t);
+                                      extent.low = glm::min(extent.low, sum);
+                                      extent.high = glm::max(extent.high, sum);
+                                  }
+                              });
+            return extent;
+        },
+        [](const Extent& a, const Extent& b) {
+            return Extent{glm::min(a.low, b.low), glm::max(a.high, b.high)};
+        });
+}
+
+std::vector<MortonTriangle> codes_of(std::span<const TriangleBatch> batches, const TriangleIds& ids,
+                                     BuildProgress& progress) {
+    const Extent extent = extent_of(batches, ids);
+    const glm::dvec3 size = extent.high - extent.low;
+    const double edge = std::max({size.x, size.y, size.z});
+    const double cells_per_unit = edge > 0.0 ? kCells / edge : 0.0;
+    const auto code_of = [&](const glm::dvec3& sum) {
+        const glm::dvec3 cell = glm::min((sum - extent.low) * cells_per_unit, kCells - 1.0);
+        const auto bits = [](double c) { return spread_bits(static_cast<std::uint64_t>(c)); };
+        return bits(cell.x) | bits(cell.y) << 1 | bits(cell.z) << 2;
+    };
+    std::vector<MortonTriangle> triangles(ids.count());
+    tbb::parallel_for(IdRange(0, ids.count(), kGrain), [&](const IdRange& range) {
+        if (progress.stopped()) return;
+        ids.for_each_part(range.begin(), range.end(),
+                          [&](std::uint32_t b, std::uint32_t first, std::uint32_t end) {
+                              for (std::uint32_t t = first; t < end; ++t) {
+                                  const std::uint32_t id = ids.first_of(b) + t;
+                                  triangles[id] = {code_of(corner_sum(batches[b], t)), id, b};
+                              }
+                          });
+        progress.advance(range.size());
+    });
+    return triangles;
+}
+
+/// Radix sort from the highest digit down. Each split is stable and its buckets are octree cells, so the
+/// order does not depend on how the work was shared out; cells that are small enough are left as they are.
+class CellSort {
+  public:
+    CellSort(std::vector<MortonTriangle>& triangles, std::size_t cell_triangles, BuildProgress& progress)
+        : triangles_(triangles),
+          other_(triangles.size()),
+          cell_triangles_(cell_triangles),
+          progress_(progress) {}
+
+    void run() { sort({triangles_, other_}, 3 * kMortonLevels, true); }
+
+  private:
+    // Four levels where there are many triangles, so that few passes go over memory that no cache holds; else
+    // two, so that clearing the counters costs less than sorting.
+    static constexpr std::size_t kManyTriangles = std::size_t{1} << 15;
+    static constexpr int kLargeDigit = 12;
+    static constexpr int kSmallDigit = 6;
+    static constexpr std::size_t kChunk = std::size_t{1} << 17;  // of a split that is shared out
+
+    struct Buffers {
+        std::span<MortonTriangle> from;
+        std::span<MortonTriangle> to;
+    };
+
+    /// Sorts `buffers.from` by its lowest `bits` bits. `home`: that is where the result belongs, else in
+    /// `to`.
+    void sort(Buffers buffers, int bits, bool home) {
+        const std::size_t count = buffers.from.size();
+        if (count <= cell_triangles_ || count < 2 || bits == 0 || progress_.stopped()) {
+            if (!home) std::ranges::copy(buffers.from, buffers.to.begin());
+            progress_.advance(count);
+            return;
+        }
+        const int digit = std::min(bits, count > kManyTriangles ? kLargeDigit : kSmallDigit);
+        const int shift = bits - digit;
+        const std::vector<std::uint32_t> ends = split(buffers, shift, (std::size_t{1} << digit) - 1);
+        const auto sort_bucket = [&](std::size_t d) {
+            const std::size_t begin = d == 0 ? 0 : ends[d - 1];
+            if (begin == ends[d]) return;
+            const std::size_t size = ends[d] - begin;
+            sort({buffers.to.subspan(begin, size), buffers.from.subspan(begin, size)}, shift, !home);
+        };
+        if (count > kManyTriangles)
+            tbb::parallel_for(std::size_t{0}, ends.size(), sort_bucket);
+        else
+            for (std::size_t d = 0; d < ends.size(); ++d) sort_bucket(d);
+    }
+
+    /// Moves `from` to `to`, by digit; the end of each digit's bucket. Stable: by digit, then by chunk, then
+    /// in order.
+    static std::vector<std::uint32_t> split(Buffers buffers, int shift, std::size_t mask) {
+        const std::size_t count = buffers.from.size();
+        const std::size_t chunks = (count + kChunk - 1) / kChunk;
+        std::vector<std::vector<std::uint32_t>> place(chunks);
+        const auto chunk_of = [&](std::size_t c) {
+            return buffers.from.subspan(c * kChunk, std::min(kChunk, count - c * kChunk));
+        };
+        tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+            place[c].assign(mask + 1, 0);
+            for (const MortonTriangle& t : chunk_of(c)) ++place[c][(t.code >> shift) & mask];
+        });
+        std::vector<std::uint32_t> ends(mask + 1);
+        std::uint32_t sum = 0;
+        for (std::size_t d = 0; d <= mask; ++d) {
+            for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(place[c][d], sum);
+            ends[d] = sum;
+        }
+        tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+            for (const MortonTriangle& t : chunk_of(c)) buffers.to[place[c][(t.code >> shift) & mask]++] = t;
+        });
+        return ends;
+    }
+
+    std::vector<MortonTriangle>& triangles_;
+    std::vector<MortonTriangle> other_;
+    std::size_t cell_triangles_;
+    BuildProgress& progress_;
+};
 
 }  // namespace
 
-Result<std::vector<MortonTriangle>> sort_by_morton_code(std::span<const TriangleBatch> batches) {
+Status check_batches(std::span<const TriangleBatch> batches) {
     std::uint64_t index_count = 0;
     for (const TriangleBatch& batch : batches) index_count += batch.indices.size();
     if (index_count >= std::numeric_limits<std::uint32_t>::max())
         return Error{"the batches have " + std::to_string(index_count) +
                      " indices, more than 4,294,967,294; split the scene"};
+    for (std::size_t b = 0; b < batches.size(); ++b)
+        if (Status status = check_batch(batches[b], b); !status) return status;
+    return success();
+}
 
-    glm::dvec3 low(std::numeric_limits<double>::infinity());
-    glm::dvec3 high(-std::numeric_limits<double>::infinity());
-    for (std::size_t b = 0; b < batches.size(); ++b) {
-        if (Status status = check_batch(batches[b], b); !status) return status.error();
-        for (std::size_t t = 0; t < batches[b].indices.size() / 3; ++t) {
-            const glm::dvec3 sum = corner_sum(batches[b], t);
-            low = glm::min(low, sum);
-            high = glm::max(high, sum);
-        }
-    }
-    const glm::dvec3 size = high - low;
-    const double edge = std::max({size.x, size.y, size.z});
-    const double cells_per_unit = edge > 0.0 ? kCells / edge : 0.0;
-
-    std::vector<MortonTriangle> triangles;
-    triangles.reserve(index_count / 3);
-    for (std::uint32_t b = 0; b < batches.size(); ++b) {
-        for (std::uint32_t t = 0; t < batches[b].indices.size() / 3; ++t) {
-            const glm::dvec3 cell =
-                glm::min((corner_sum(batches[b], t) - low) * cells_per_unit, kCells - 1.0);
-            const auto bits = [](double c) { return spread_bits(static_cast<std::uint64_t>(c)); };
-            triangles.push_back({bits(cell.x) | bits(cell.y) << 1 | bits(cell.z) << 2, b, t});
-        }
-    }
-    radix_sort(triangles);
+std::vector<MortonTriangle> sort_by_morton_code(std::span<const TriangleBatch> batches,
+                                                const TriangleIds& ids, std::size_t cell_triangles,
+                                                BuildProgress& progress) {
+    progress.begin_phase(0.15, ids.count());
+    std::vector<MortonTriangle> triangles = codes_of(batches, ids, progress);
+    progress.begin_phase(0.15, ids.count());
+    CellSort(triangles, cell_triangles, progress).run();
     return triangles;
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "build_progress.h"
 #include "rhview/rhoctree/draw_list.h"
 #include "rhview/rhoctree/rhoctree.h"
 
@@ -25,25 +26,35 @@ class ReplicaBuilder {
   public:
     /// `cluster_of_triangle`: in base order.
     ReplicaBuilder(std::span<const TriangleBatch> batches, const OctreeOptions& options,
-                   std::span<const std::uint8_t> cluster_of_triangle, RhOctree& octree)
-        : batches_(batches), options_(options), cluster_of_triangle_(cluster_of_triangle), octree_(octree) {}
+                   std::span<const std::uint8_t> cluster_of_triangle, RhOctree& octree,
+                   BuildProgress& progress)
+        : batches_(batches),
+          options_(options),
+          cluster_of_triangle_(cluster_of_triangle),
+          octree_(octree),
+          progress_(progress) {}
 
     void build();
 
   private:
     void add_candidates();
-    void add_candidate(std::uint32_t node, const DrawRange& range);
+    void bound_candidates();
+    void bound_candidate(const OctreeReplica& range, std::vector<NormalCluster>& clusters) const;
+    /// The clusters of each replica, one replica after the other, behind those that are there.
+    void append(const std::vector<std::vector<NormalCluster>>& clusters_of_replica);
     void count_nodes_replicas();
     void measure_savings();
     void keep_outer_or_inner();
     void keep_within_budget();
     void drop_unchosen();
     void emit_indices();
+    void emit_replica(const OctreeReplica& replica, std::vector<NormalCluster>& clusters);
 
     std::span<const TriangleBatch> batches_;
     const OctreeOptions& options_;
     std::span<const std::uint8_t> cluster_of_triangle_;
     RhOctree& octree_;
+    BuildProgress& progress_;
     std::vector<double> saving_ns_;  ///< per candidate: mean over the sample views, less its planning
     std::vector<bool> chosen_;
 };

@@ -86,7 +86,9 @@ SceneBatch& SceneBuilder::batch_for(MaterialId material, std::uint32_t pool) {
 
 void SceneBuilder::append(const MeshPiece& piece, const glm::dmat4& target_from_piece, std::uint32_t pool_id,
                           std::vector<std::uint32_t>& indices, Aabb& bounds) {
-    VertexPool& pool = scene_.pools[pool_id];
+    std::vector<glm::vec3>& positions = scene_.pools[pool_id].positions.own();
+    std::vector<PackedNormal>& normals = scene_.pools[pool_id].normals.own();
+    std::vector<PackedColour>& colours = scene_.pools[pool_id].colours.own();
     if (indices.size() + piece.indices.size() >= kNone) {
         too_large_ = true;
         return;
@@ -95,11 +97,11 @@ void SceneBuilder::append(const MeshPiece& piece, const glm::dmat4& target_from_
     if (new_index_.size() < piece.positions.size()) new_index_.resize(piece.positions.size(), kNone);
     const auto is_new = [&](std::uint32_t vertex) { return new_index_[vertex] >= kNotFinite; };
     const auto store = [&](std::uint32_t vertex, const glm::vec3& position) {
-        new_index_[vertex] = static_cast<std::uint32_t>(pool.positions.size());
-        pool.positions.push_back(position);
+        new_index_[vertex] = static_cast<std::uint32_t>(positions.size());
+        positions.push_back(position);
         bounds.grow(position);
-        if (!piece.normals.empty()) pool.normals.push_back(placement.normal(piece.normals[vertex]));
-        if (!piece.colours.empty()) pool.colours.push_back(piece.colours[vertex]);
+        if (!piece.normals.empty()) normals.push_back(placement.normal(piece.normals[vertex]));
+        if (!piece.colours.empty()) colours.push_back(piece.colours[vertex]);
     };
     // Stores the corners that are new. All are placed before any is stored: a dropped triangle leaves no
     // vertex.
@@ -122,7 +124,7 @@ void SceneBuilder::append(const MeshPiece& piece, const glm::dmat4& target_from_
                                                    piece.indices[placement.mirrored ? i + 2 : i + 1],
                                                    piece.indices[placement.mirrored ? i + 1 : i + 2]};
         if (is_new(corners[0]) || is_new(corners[1]) || is_new(corners[2])) {
-            too_large_ = pool.positions.size() + 3 >= kNotFinite;
+            too_large_ = positions.size() + 3 >= kNotFinite;
             if (too_large_) break;
             if (!store_new(corners)) {
                 ++scene_.dropped_triangles;
@@ -143,16 +145,16 @@ void SceneBuilder::add_static(MaterialId material, const MeshPiece& piece,
     scene_from_piece[3] -= glm::dvec4(scene_.origin, 0.0);
     SceneObject object;
     object.first_index = static_cast<std::uint32_t>(batch.indices.size());
-    append(piece, scene_from_piece, pool, batch.indices, object.bounds);
+    append(piece, scene_from_piece, pool, batch.indices.own(), object.bounds);
     object.index_count = static_cast<std::uint32_t>(batch.indices.size()) - object.first_index;
-    if (object.index_count > 0) batch.objects.push_back(object);
+    if (object.index_count > 0) batch.objects.own().push_back(object);
 }
 
 std::optional<MeshId> SceneBuilder::add_mesh(MaterialId material, const MeshPiece& piece) {
     SceneMesh mesh;
     mesh.material = material;
     mesh.pool = pool_for(!piece.normals.empty(), !piece.colours.empty());
-    append(piece, glm::dmat4(1.0), mesh.pool, mesh.indices, mesh.bounds);
+    append(piece, glm::dmat4(1.0), mesh.pool, mesh.indices.own(), mesh.bounds);
     if (mesh.indices.empty()) return std::nullopt;
     scene_.meshes.push_back(std::move(mesh));
     return MeshId{static_cast<std::uint32_t>(scene_.meshes.size() - 1)};
@@ -175,11 +177,11 @@ void SceneBuilder::reserve(MaterialId material, bool normals, bool colours, std:
     // Batches share their format's pool: what was asked for before has not been added yet.
     std::size_t& reserved = reserved_vertices_[format_of(normals, colours)];
     reserved = std::max(reserved, pool.positions.size()) + vertices;
-    pool.positions.reserve(reserved);
-    if (normals) pool.normals.reserve(reserved);
-    if (colours) pool.colours.reserve(reserved);
+    pool.positions.own().reserve(reserved);
+    if (normals) pool.normals.own().reserve(reserved);
+    if (colours) pool.colours.own().reserve(reserved);
     SceneBatch& batch = batch_for(material, pool_id);
-    batch.indices.reserve(batch.indices.size() + indices);
+    batch.indices.own().reserve(batch.indices.size() + indices);
 }
 
 Result<Scene> SceneBuilder::finish(std::string name) {

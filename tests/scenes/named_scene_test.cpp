@@ -106,8 +106,7 @@ const NamedSceneInfo& info_of(std::string_view name) {
     return named_scenes().front();
 }
 
-glm::vec3 triangle_normal(const VertexPool& pool, const std::vector<std::uint32_t>& indices,
-                          std::size_t first) {
+glm::vec3 triangle_normal(const VertexPool& pool, std::span<const std::uint32_t> indices, std::size_t first) {
     const glm::vec3 a = pool.positions[indices[first]];
     return glm::cross(pool.positions[indices[first + 1]] - a, pool.positions[indices[first + 2]] - a);
 }
@@ -195,7 +194,7 @@ TEST(NamedScene, stored_normals_point_out_of_the_front_faces) {
          {"plant:objects=3000", "indoor:rooms=3,floors=2", "farm:mesh=5000", "city:blocks=2"}) {
         const Scene scene = built(spec).scene;
         std::uint64_t wrong = 0;
-        const auto check = [&](const VertexPool& pool, const std::vector<std::uint32_t>& indices) {
+        const auto check = [&](const VertexPool& pool, std::span<const std::uint32_t> indices) {
             ASSERT_EQ(pool.normals.size(), pool.positions.size());
             for (std::size_t i = 0; i < indices.size(); i += 3) {
                 const glm::vec3 normal = triangle_normal(pool, indices, i);
@@ -268,7 +267,7 @@ TEST(NamedScene, farm_stores_its_mesh_once_as_a_closed_surface) {
         const Scene scene = built("farm:instances=12,mesh=" + std::to_string(triangles)).scene;
         ASSERT_EQ(scene.meshes.size(), 1u);
         EXPECT_EQ(scene.dynamic_objects.size(), 12u);
-        const std::vector<std::uint32_t>& indices = scene.meshes[0].indices;
+        const std::span<const std::uint32_t> indices = scene.meshes[0].indices;
         EXPECT_NEAR(static_cast<double>(indices.size()) / 3.0, static_cast<double>(triangles),
                     0.01 * static_cast<double>(triangles));
         // Closed: each edge is walked once in each direction.

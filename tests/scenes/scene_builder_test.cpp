@@ -148,10 +148,10 @@ TEST(SceneBuilder, rooms_reserved_for_several_batches_of_a_pool_add_up) {
     builder.reserve(red, true, false, 300, 3);
     builder.reserve(blue, true, false, 500, 3);
     builder.add_static(red, triangle(true));
-    const Result<Scene> scene = builder.finish("reserved");
+    Result<Scene> scene = builder.finish("reserved");
     ASSERT_TRUE(scene.ok());
-    EXPECT_EQ(scene->pools[0].positions.capacity(), 800u);
-    EXPECT_EQ(scene->pools[0].normals.capacity(), 800u);
+    EXPECT_EQ(scene->pools[0].positions.own().capacity(), 800u);
+    EXPECT_EQ(scene->pools[0].normals.own().capacity(), 800u);
 }
 
 TEST(PackedNormal, components_are_ten_signed_bits_from_x_up) {

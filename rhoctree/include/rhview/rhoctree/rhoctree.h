@@ -11,11 +11,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
-#include <vector>
 
 #include "rhview/base/aabb.h"
 #include "rhview/base/ids.h"
+#include "rhview/base/mappable_array.h"
 #include "rhview/base/result.h"
 #include "rhview/base/triangle_batch.h"
 #include "rhview/base/view.h"
@@ -44,6 +45,9 @@ struct OctreeOptions {
     /// front of random triangles.
     std::span<const View> sample_views{};
     glm::dvec3 scene_origin{0.0};
+    /// Called now and then with the share of the build that is done, 0 to 1 and never falling, by any of the
+    /// build's threads but one at a time. False stops the build, which then returns an error.
+    std::function<bool(double)> progress{};
 };
 
 /// Part of the octree's index buffer that one batch draws.
@@ -101,22 +105,22 @@ struct OctreeNode {
 
 class RhOctree {
   public:
-    [[nodiscard]] std::span<const OctreeNode> nodes() const { return nodes_; }
+    [[nodiscard]] std::span<const OctreeNode> nodes() const { return nodes_.span(); }
     [[nodiscard]] const OctreeNode& node(NodeId id) const { return nodes_[index_of(id)]; }
     [[nodiscard]] bool is_leaf(NodeId id) const { return nodes_[index_of(id)].end == index_of(id) + 1; }
     /// The node's triangles, one contiguous range per batch, by batch id.
     [[nodiscard]] std::span<const DrawRange> ranges(NodeId id) const {
-        return std::span(ranges_).subspan(node(id).first_range, node(id).range_count);
+        return ranges_.span().subspan(node(id).first_range, node(id).range_count);
     }
     /// The index buffer to draw from. In base order first: batch after batch, leaves in depth-first order;
     /// then the replicas. Index values are the batch's own, into its `positions`. A triangle's three indices
     /// keep their order, so that depths agree to the last bit with the source's.
-    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
+    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_.span(); }
     /// Those of the base order: as many as the batches have.
     [[nodiscard]] std::size_t base_index_count() const { return base_index_count_; }
-    [[nodiscard]] std::span<const OctreePiece> pieces() const { return pieces_; }
-    [[nodiscard]] std::span<const OctreeReplica> replicas() const { return replicas_; }
-    [[nodiscard]] std::span<const NormalCluster> clusters() const { return clusters_; }
+    [[nodiscard]] std::span<const OctreePiece> pieces() const { return pieces_.span(); }
+    [[nodiscard]] std::span<const OctreeReplica> replicas() const { return replicas_.span(); }
+    [[nodiscard]] std::span<const NormalCluster> clusters() const { return clusters_.span(); }
     [[nodiscard]] std::size_t batch_count() const { return batch_count_; }
     [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
     [[nodiscard]] std::size_t replica_bytes() const {
@@ -125,14 +129,15 @@ class RhOctree {
 
   private:
     friend class OctreeBuilder;
+    friend class OctreeFile;
     friend class ReplicaBuilder;
 
-    std::vector<OctreeNode> nodes_;
-    std::vector<DrawRange> ranges_;
-    std::vector<OctreePiece> pieces_;
-    std::vector<OctreeReplica> replicas_;
-    std::vector<NormalCluster> clusters_;
-    std::vector<std::uint32_t> indices_;
+    MappableArray<OctreeNode> nodes_;
+    MappableArray<DrawRange> ranges_;
+    MappableArray<OctreePiece> pieces_;
+    MappableArray<OctreeReplica> replicas_;
+    MappableArray<NormalCluster> clusters_;
+    MappableArray<std::uint32_t> indices_;
     std::size_t base_index_count_ = 0;
     std::size_t batch_count_ = 0;
     std::size_t leaf_count_ = 0;
@@ -147,8 +152,10 @@ OctreeOptions choose_octree_options(const DrawCosts& costs, std::uint64_t index_
 
 /// Builds the octree of `batches`; batch i is `BatchId{i}`. No batch, or batches without triangles, give no
 /// node. Deterministic. Errors name the batch and triangle: an index out of range, a corner that is not
-/// finite, an index count that is no multiple of three, more than 2^32 - 1 indices. Cost: O(n) in triangles
-/// (radix sort), 32 bytes of scratch per triangle; with replicas O(n log n), see docs/draw-list.md.
+/// finite, an index count that is no multiple of three, more than 2^32 - 1 indices, or a build that was
+/// stopped. Threads: oneTBB's, as many as the caller's arena has; the octree is the same with any number.
+/// Cost: O(n) in triangles (radix sort), 32 bytes of scratch per triangle; with replicas O(n log n), see
+/// docs/draw-list.md.
 Result<RhOctree> build_octree(std::span<const TriangleBatch> batches, const OctreeOptions& options = {});
 
 }  // namespace rhview

@@ -17,6 +17,7 @@
 
 #include "rhview/base/aabb.h"
 #include "rhview/base/ids.h"
+#include "rhview/base/mappable_array.h"
 #include "rhview/base/triangle_batch.h"
 
 namespace rhview {
@@ -39,9 +40,9 @@ PackedColour pack_colour(const glm::vec3& colour);
 /// The vertices of one vertex format. `normals` and `colours` are empty or as long as `positions`; without
 /// normals a surface is shaded flat, without colours it takes its material's.
 struct VertexPool {
-    std::vector<glm::vec3> positions;
-    std::vector<PackedNormal> normals;
-    std::vector<PackedColour> colours;
+    MappableArray<glm::vec3> positions;
+    MappableArray<PackedNormal> normals;
+    MappableArray<PackedColour> colours;
 
     [[nodiscard]] std::size_t bytes() const;
 };
@@ -57,15 +58,15 @@ struct SceneObject {
 struct SceneBatch {
     MaterialId material{};
     std::uint32_t pool = 0;
-    std::vector<std::uint32_t> indices;
-    std::vector<SceneObject> objects;
+    MappableArray<std::uint32_t> indices;
+    MappableArray<SceneObject> objects;
 };
 
 /// A mesh that several objects share, in its own space.
 struct SceneMesh {
     MaterialId material{};
     std::uint32_t pool = 0;
-    std::vector<std::uint32_t> indices;
+    MappableArray<std::uint32_t> indices;
     Aabb bounds;
 };
 

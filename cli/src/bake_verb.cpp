@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
+#include "constants.h"
+#include "method.h"
+#include "progress.h"
+#include "rhview/base/version.h"
+#include "rhview/gl/context.h"
+#include "rhview/gl/timer.h"
+#include "scene_source.h"
+#include "verbs.h"
+
+namespace rhview::cli {
+namespace {
+
+// Quick calibrations draw at this size where the user names none.
+constexpr int kWidth = 1280;
+constexpr int kHeight = 720;
+
+/// The costs that `rhview` builds by, chosen as a walk would.
+Result<DrawCosts> costs_of(const BakeOptions& options, const WantedConstants& wanted,
+                           const LoadedScene& loaded) {
+    if (options.method != "rhview") return DrawCosts();
+    const Result<gl::Context> context = gl::Context::create_headless();
+    if (!context) return context.error();
+    const Result<ChosenConstants> chosen =
+        choose_constants(wanted, options.scene, loaded, context->device(), kWidth, kHeight);
+    if (!chosen) return chosen.error();
+    if (!chosen->warning.empty()) fmt::print(stderr, "rhview: warning: {}\n", chosen->warning);
+    return chosen->constants ? draw_costs(chosen->constants->profile, false) : DrawCosts();
+}
+
+Result<LoadedScene> load(const BakeOptions& options) {
+    std::optional<CameraPath> path;
+    if (options.path) {
+        Result<CameraPath> from_file = load_camera_path(*options.path);
+        if (!from_file) return from_file.error();
+        path = std::move(from_file).value();
+    }
+    Result<LoadedScene> loaded = load_scene(options.scene);
+    if (loaded && path) loaded->path = std::move(*path);
+    return loaded;
+}
+
+}  // namespace
+
+Result<int> run_bake(const BakeOptions& options) {
+    if (!is_baked_name(options.output))
+        return Error{fmt::format("-o {}: a baked file is known by its name; let it end in .rho",
+                                 options.output.string())};
+    if (options.method != "octree" && options.method != "rhview-seed" && options.method != "rhview")
+        return Error{fmt::format("--method {}: has no octree to bake; write octree, rhview-seed or rhview",
+                                 options.method)};
+    const Result<WantedConstants> wanted = parse_constants(options.profile, options.set);
+    if (!wanted) return wanted.error();
+    Result<RhoWriter> writer = RhoWriter::create(options.output);
+    if (!writer) return writer.error();
+
+    Progress progress;
+    progress.say("loading " + options.scene);
+    const Result<LoadedScene> loaded = load(options);
+    if (!loaded) return loaded.error();
+    const Scene& scene = loaded->scene;
+    progress.say("choosing timing constants");
+    const Result<DrawCosts> costs = costs_of(options, *wanted, *loaded);
+    if (!costs) return costs.error();
+    progress.say("building");
+    const OctreeOptions octree_options =
+        octree_options_of(options.method, scene, {options.leaf, options.replica_budget, *costs});
+    const gl::WallTimer build_timer;
+    const std::vector<TriangleBatch> batches = scene.triangle_batches();
+    const Result<RhOctree> octree = build_octree(batches, octree_options);
+    if (!octree) return Error{scene.name + ": " + octree.error().message};
+    const double build_ms = build_timer.elapsed_ms();
+
+    progress.say("writing");
+    const gl::WallTimer write_timer;
+    // Baked anew, a scene keeps the name of its first source.
+    const std::string source = loaded->baked ? loaded->baked->provenance.source : options.scene;
+    add_scene_sections(*writer, *loaded, {source, fmt::format("rhview {}", kVersion)});
+    add_octree_sections(*writer, *octree, batches, octree_options);
+    const Result<std::uint64_t> bytes = writer->finish();
+    if (!bytes) return bytes.error();
+    const double write_ms = write_timer.elapsed_ms();
+    progress.clear();
+
+    constexpr double kMebibyte = 1024.0 * 1024.0;
+    fmt::print("{}\n", options.output.string());
+    fmt::print("  scene       {}: {} triangles, {:.1f} MiB of vertices, {:.1f} MiB of indices\n", scene.name,
+               scene.static_triangles() + scene.dynamic_triangles(),
+               static_cast<double>(scene.vertex_bytes()) / kMebibyte,
+               static_cast<double>(scene.index_bytes()) / kMebibyte);
+    fmt::print(
+        "  octree      {} nodes, {} leaves of at most {} triangles, {} replicas of {:.1f} MiB; built in "
+        "{:.0f} ms\n",
+        octree->nodes().size(), octree->leaf_count(), octree_options.max_leaf_triangles,
+        octree->replicas().size(), static_cast<double>(octree->replica_bytes()) / kMebibyte, build_ms);
+    fmt::print("  file        {:.1f} MiB, written in {:.0f} ms\n", static_cast<double>(*bytes) / kMebibyte,
+               write_ms);
+    return kDone;
+}
+
+}  // namespace rhview::cli

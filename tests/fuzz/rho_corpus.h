@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "../rhoctree/random_geometry.h"
+#include "rhview/rhoctree/baked_octree.h"
+#include "rhview/scenes/baked_scene.h"
+
+namespace rhview {
+
+/// Writes small baked files of every kind into `folder`, for mutations to start from: many batches, replicas,
+/// one leaf, nothing; dynamic objects, two vertex formats. Their names.
+inline std::vector<std::filesystem::path> write_corpus(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    std::vector<std::filesystem::path> files;
+    const auto write = [&](const char* name, const auto& add) {
+        files.push_back(folder / name);
+        Result<RhoWriter> writer = RhoWriter::create(files.back());
+        if (!writer) return;
+        add(*writer);
+        if (!writer->finish()) files.pop_back();
+    };
+    const auto write_octree = [&](const char* name, const RandomGeometry& geometry,
+                                  const OctreeOptions& options) {
+        const std::vector<TriangleBatch> batches = geometry.batches();
+        const RhOctree octree = build_octree(batches, options).value();
+        write(name, [&](RhoWriter& writer) { add_octree_sections(writer, octree, batches, options); });
+    };
+    OctreeOptions replicas{.max_leaf_triangles = 16, .replica_budget = 1.0, .costs = {100.0, 3000.0, 0.0}};
+    const View above{look_along({10, 300, 40}, {-0.1, -1, 0}, {1, 0, 0}),
+                     perspective(1.0, 1.5, 0.1, 2000.0, {})};
+    replicas.sample_views = {&above, 1};
+    write_octree("replicas.rho", RandomGeometry(1, 2, 150), replicas);
+    write_octree("batches.rho", RandomGeometry(2, 9, 20),
+                 {.max_leaf_triangles = 8, .min_record_indices = 12});
+    write_octree("leaf.rho", RandomGeometry(3, 1, 5), {});
+    write_octree("nothing.rho", RandomGeometry(4, 1, 0), {});
+    const SceneAndPath scene = make_named_scene("soup:triangles=1000").value();
+    write("scene.rho", [&](RhoWriter& writer) { add_scene_sections(writer, scene, {"soup", "the tests"}); });
+    const SceneAndPath farm = make_named_scene("farm:instances=3,mesh=1000").value();
+    const std::vector<TriangleBatch> batches = farm.scene.triangle_batches();
+    const RhOctree octree = build_octree(batches, {.max_leaf_triangles = 2000}).value();
+    write("farm.rho", [&](RhoWriter& writer) {
+        add_scene_sections(writer, farm, {"farm", "the tests"});
+        add_octree_sections(writer, octree, batches, {.max_leaf_triangles = 2000});
+    });
+    return files;
+}
+
+}  // namespace rhview

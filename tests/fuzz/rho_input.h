@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "../plan_everything.h"
+#include "../rho_bytes.h"
+#include "rhview/rhoctree/baked_octree.h"
+#include "rhview/scenes/baked_scene.h"
+
+namespace rhview {
+
+/// Reads `bytes` as a baked file and uses all that is accepted: plans its octree, frames its path, adds up
+/// its scene. Aborts if something that was accepted is out of bounds. How many of the two halves were
+/// accepted.
+inline int use_baked_file(std::span<const std::byte> bytes) {
+    const Result<RhoFile> file = RhoFile::parse(FileBytes::copy_of(bytes), "input.rho");
+    if (!file) return 0;
+    int accepted = 0;
+    if (const Result<BakedOctree> octree = read_octree_sections(*file)) {
+        ++accepted;
+        plan_everything(octree->octree);
+    }
+    if (const Result<BakedScene> baked = read_scene_sections(*file)) {
+        ++accepted;
+        const Scene& scene = baked->scene.scene;
+        if (!(scene.vertex_bytes() + scene.index_bytes() <= bytes.size())) std::abort();
+        for (const TriangleBatch& batch : scene.triangle_batches())
+            for (const std::uint32_t index : batch.indices)
+                if (index >= batch.positions.size()) std::abort();
+        if (!validate(baked->scene.path.view_of_frame(1, 3, 1.5, ClipDepth::ZeroToOne))) std::abort();
+    }
+    return accepted;
+}
+
+/// As they are, and with checksums that fit whatever they say now: else hardly anything would pass the first
+/// gate.
+inline int use_raw_and_repaired(std::span<const std::byte> bytes) {
+    const int raw = use_baked_file(bytes);
+    RhoBytes repaired{{bytes.begin(), bytes.end()}};
+    repaired.repair();
+    return raw + use_baked_file(repaired.bytes);
+}
+
+}  // namespace rhview
