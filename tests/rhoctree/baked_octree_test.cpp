@@ -192,7 +192,7 @@ TEST(BakedOctree, records_that_contradict_each_other_are_told_by_name) {
         {replica(0, [](OctreeReplica& r) { r.first_index = 0; }), "replica 0: it does not follow"},
         {replica(0, [](OctreeReplica& r) { r.first_cluster = 0x7fffffffu; }),
          "replica 0: its clusters are not"},
-        {replica(0, [](OctreeReplica& r) { r.cluster_count += 1; }),
+        {replica(0, [](OctreeReplica& r) { r.cluster_count -= 1; }),
          "replica 0: its clusters don't make it up"},
         {index("OIDX", replica_index, 2700), "section OIDX: replica 0: an index is not below"},
         {index("OIDX", 17, 0xffffffffu), "section OIDX: batch 0: an index is not below"},
