@@ -5,7 +5,7 @@
 
 Draw calls and indices are counted and repeat exactly. Times are noisy: the methods are interleaved, every walk is repeated,
 and a row holds the median over the repeats of each walk's median frame, with the smallest and largest beside it. Compare
-rows of one run only.
+rows of one run only. Every scene is calibrated with first, and all its walks use that profile.
 """
 
 import argparse
@@ -17,17 +17,18 @@ import subprocess
 import sys
 import tempfile
 
-RUNS = [("none", None), ("frustum", None), ("octree", 64), ("rhview-seed", 64), ("octree", 4096), ("rhview-seed", 4096)]
+RUNS = [("none", None), ("frustum", None), ("octree", 64), ("rhview-seed", 64), ("octree", 4096), ("rhview-seed", 4096),
+        ("rhview", None)]
 FIELDS = ["scene", "triangles", "materials", "method", "leaf", "draw_calls_mean", "draw_calls_max", "indices_mean",
-          "nodes_visited_mean", "build_ms", "cull_ms", "frame_ms", "frame_ms_min", "frame_ms_max", "missing_pixels",
+          "nodes_visited_mean", "build_ms", "cull_ms", "frame_ms", "frame_ms_min", "frame_ms_max", "frame_ms_mean", "missing_pixels",
           "checked_frames", "plan_hash", "frames", "size", "renderer", "timer"]
 
 
-def walk(program, scene, method, leaf, options, check_every):
+def walk(program, scene, method, leaf, profile, options, check_every):
     with tempfile.TemporaryDirectory() as folder:
         result = pathlib.Path(folder) / "walk.json"
         command = [program, "walk", scene, "--method", method, "--json", str(result), "--frames", str(options.frames),
-                   "--size", options.size, "--warmup", "2"]
+                   "--size", options.size, "--warmup", "2", "--profile", str(profile)]
         if leaf is not None:
             command += ["--leaf", str(leaf)]
         if check_every:
@@ -54,7 +55,8 @@ def row(scene, method, leaf, walks):
         "build_ms": "" if first["build"]["ms"] is None else round(statistics.median(w["build"]["ms"] for w in walks)),
         "cull_ms": round(statistics.median(w["summary"]["cull_ms"]["median"] for w in walks), 4),
         "frame_ms": round(statistics.median(frame_ms), 2), "frame_ms_min": round(min(frame_ms), 2),
-        "frame_ms_max": round(max(frame_ms), 2), "missing_pixels": summary["missing_pixels"]["total"],
+        "frame_ms_max": round(max(frame_ms), 2),
+        "frame_ms_mean": round(statistics.median(w["summary"]["frame_ms"]["mean"] for w in walks), 2), "missing_pixels": summary["missing_pixels"]["total"],
         "checked_frames": summary["missing_pixels"]["checked_frames"], "plan_hash": summary["plan_hash"],
         "frames": first["frames"], "size": "x".join(map(str, first["size"])), "renderer": first["device"]["renderer"],
         "timer": first["device"]["timer"],
@@ -82,11 +84,17 @@ def main():
     rows = []
     for scene in options.scenes:
         walks = {run: [] for run in RUNS}
-        for repeat in range(options.repeats):
-            for run in RUNS:
-                # The first repeat also checks pixels; the timed part of a frame does not hold that work.
-                walks[run].append(walk(options.program, scene, *run, options, 5 if repeat == 0 else 0))
-                print(f"{scene} {run[0]} {run[1] or ''} repeat {repeat + 1}", file=sys.stderr)
+        with tempfile.TemporaryDirectory() as folder:
+            profile = pathlib.Path(folder) / "profile.json"
+            subprocess.run([options.program, "calibrate", scene, "--size", options.size, "-o", str(profile)],
+                           stdout=subprocess.DEVNULL, check=True)
+            for repeat in range(options.repeats):
+                for run in RUNS:
+                    # The first repeat also checks pixels; the timed part of a frame does not hold that work.
+                    walks[run].append(walk(options.program, scene, *run, profile, options, 5 if repeat == 0 else 0))
+                    frame_ms = walks[run][-1]["summary"]["frame_ms"]
+                    print(f"{scene} {run[0]} {run[1] or ''} repeat {repeat + 1}: median {frame_ms['median']:.1f}, "
+                          f"mean {frame_ms['mean']:.1f} ms", file=sys.stderr)
         rows += [row(scene, method, leaf, walks[method, leaf]) for method, leaf in RUNS]
         write(pathlib.Path(options.output), rows)
 

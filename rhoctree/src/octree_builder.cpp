@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "normal_order.h"
+#include "vertex_reuse.h"
 
 namespace rhview {
 namespace {
@@ -163,24 +164,42 @@ void OctreeBuilder::fill_leaves() {
 /// Indices and box, and the order by normal.
 void OctreeBuilder::fill_leaf(std::uint32_t leaf) {
     OctreeNode& node = nodes_[leaf];
-    const MortonTriangle* triangle = triangles_.data() + cells_[leaf].begin;
     ClusterSorter sorter;
     for (const DrawRange& range : std::span(ranges_).subspan(node.first_range, node.range_count)) {
         const auto b = static_cast<std::uint32_t>(range.batch);
         const TriangleBatch& batch = batches_[b];
         const std::span<std::uint32_t> indices =
             std::span(indices_).subspan(range.first_index, range.index_count);
-        for (std::uint32_t* to = indices.data(); to != indices.data() + indices.size(); ++triangle)
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                node.bounds.grow(
-                    batch.positions[*to++ = batch.indices[3 * std::size_t{triangle->id - ids_.first_of(b)} +
-                                                          corner]]);
+        copy_source(leaf, range.batch, indices);
+        for (const std::uint32_t index : indices) node.bounds.grow(batch.positions[index]);
         if (!is_ordered(b)) continue;
         const std::span<std::uint8_t> clusters =
             std::span(cluster_of_triangle_).subspan(range.first_index / 3, range.index_count / 3);
         classify_normals(schemes_[b], batch.positions, indices, clusters);
         sorter.sort(indices, clusters);
     }
+}
+
+/// The batch's triangles of the leaf, in the source's order.
+void OctreeBuilder::copy_source(std::uint32_t leaf, BatchId batch, std::span<std::uint32_t> indices) const {
+    const Cell cell = cells_[leaf];
+    const auto b = static_cast<std::uint32_t>(batch);
+    const std::span<const MortonTriangle> all = triangles_.subspan(cell.begin, cell.end - cell.begin);
+    auto triangle = std::ranges::lower_bound(all, b, {}, &MortonTriangle::batch);
+    for (std::size_t i = 0; i < indices.size(); i += 3, ++triangle)
+        std::copy_n(batches_[b].indices.data() + 3 * std::size_t{triangle->id - ids_.first_of(b)}, 3,
+                    indices.data() + i);
+}
+
+void OctreeBuilder::restore_source_order(std::uint32_t leaf, BatchId batch) {
+    const std::span<const DrawRange> ranges = octree_.ranges(NodeId{leaf});
+    const auto range = std::ranges::lower_bound(ranges, batch, {}, &DrawRange::batch);
+    if (range == ranges.end() || range->batch != batch) return;
+    const std::span<std::uint32_t> indices =
+        std::span(indices_).subspan(range->first_index, range->index_count);
+    copy_source(leaf, batch, indices);
+    classify_normals(schemes_[index_of(batch)], batches_[index_of(batch)].positions, indices,
+                     std::span(cluster_of_triangle_).subspan(range->first_index / 3, range->index_count / 3));
 }
 
 /// Boxes and ranges of inner nodes, from those of their children, which have higher numbers.
@@ -269,14 +288,35 @@ void OctreeBuilder::bound_piece(std::uint32_t number, std::vector<NormalCluster>
     const std::size_t before = clusters.size();
     if (!is_ordered(static_cast<std::uint32_t>(piece.batch))) {
         clusters.push_back({FacingCone(), piece.index_count});
+    } else if (octree_.is_leaf(node)) {
+        bound_leaf_piece(node_of_piece_[number], piece, clusters);
     } else {
-        // Over several leaves the order starts anew in each: clusters would be met again and again.
-        std::span<const std::uint8_t> cluster_of;
-        if (octree_.is_leaf(node))
-            cluster_of = cluster_of_triangle().subspan(piece.first_index / 3, piece.index_count / 3);
-        append_clusters(batch.positions, indices, cluster_of, options_.min_record_indices, clusters);
+        // Over several leaves the order would start anew in each: nothing to skip, so it must cost nothing.
+        for (auto id = static_cast<std::uint32_t>(node); id < octree_.node(node).end; ++id)
+            if (octree_.is_leaf(NodeId{id})) restore_source_order(id, piece.batch);
+        append_clusters(batch.positions, indices, {}, options_.min_record_indices, clusters);
     }
     piece.cluster_count = static_cast<std::uint32_t>(clusters.size() - before);
+}
+
+/// In normal order where what is skipped saves more vertices than the order costs.
+void OctreeBuilder::bound_leaf_piece(std::uint32_t leaf, const OctreePiece& piece,
+                                     std::vector<NormalCluster>& clusters) {
+    const std::span<const glm::vec3> positions = batches_[index_of(piece.batch)].positions;
+    const std::span<const std::uint32_t> indices =
+        octree_.indices().subspan(piece.first_index, piece.index_count);
+    const std::size_t before = clusters.size();
+    append_clusters(positions, indices,
+                    cluster_of_triangle().subspan(piece.first_index / 3, piece.index_count / 3),
+                    options_.min_record_indices, clusters);
+    std::vector<std::uint32_t> source(indices.size());
+    copy_source(leaf, piece.batch, source);
+    const double ordered =
+        expected_share(std::span(clusters).subspan(before)) * static_cast<double>(shaded_vertices(indices));
+    if (ordered < kOrderPays * static_cast<double>(shaded_vertices(source))) return;
+    clusters.resize(before);
+    restore_source_order(leaf, piece.batch);
+    append_clusters(positions, indices, {}, options_.min_record_indices, clusters);
 }
 
 }  // namespace rhview

@@ -53,6 +53,8 @@ class OctreeBuilder {
     void place_leaves();
     void fill_leaves();
     void fill_leaf(std::uint32_t leaf);
+    void copy_source(std::uint32_t leaf, BatchId batch, std::span<std::uint32_t> indices) const;
+    void restore_source_order(std::uint32_t leaf, BatchId batch);
     void join_children();
     void add_to_range(const DrawRange& range);
     void finish_ranges(OctreeNode& node);
@@ -60,6 +62,7 @@ class OctreeBuilder {
     void hand_out_pieces();
     void bound_pieces();
     void bound_piece(std::uint32_t piece, std::vector<NormalCluster>& clusters);
+    void bound_leaf_piece(std::uint32_t leaf, const OctreePiece& piece, std::vector<NormalCluster>& clusters);
 
     [[nodiscard]] bool is_ordered(std::uint32_t batch) const {
         return options_.normal_order && !batches_[batch].two_sided;

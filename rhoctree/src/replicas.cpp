@@ -11,6 +11,7 @@
 
 #include "normal_order.h"
 #include "sample_views.h"
+#include "vertex_reuse.h"
 
 namespace rhview {
 namespace {
@@ -94,13 +95,20 @@ void ReplicaBuilder::bound_candidate(const OctreeReplica& range, std::vector<Nor
     for (const std::uint8_t cluster : cluster_of) ++count[cluster];
     std::array<std::vector<std::uint32_t>, 256> sampled;
     std::array<std::uint32_t, 256> met{};
+    std::array<VertexCache, 256> caches;
+    std::size_t shaded = 0;
     for (std::size_t t = 0; t < cluster_of.size(); ++t) {
         const std::uint8_t cluster = cluster_of[t];
+        const std::uint32_t* corners = octree_.indices().data() + range.first_index + 3 * t;
+        for (std::size_t corner = 0; corner < 3; ++corner) shaded += caches[cluster].misses(corners[corner]);
         const std::uint32_t stride = 1 + count[cluster] / kSampledTriangles;
         if (met[cluster]++ % stride == 0)
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                sampled[cluster].push_back(octree_.indices()[range.first_index + 3 * t + corner]);
+            for (std::size_t corner = 0; corner < 3; ++corner) sampled[cluster].push_back(corners[corner]);
     }
+    // What is dearer by index in the replica counts as more indices: only for choosing.
+    const std::size_t in_base =
+        shaded_vertices(octree_.indices().subspan(range.first_index, range.index_count));
+    const double dearer = std::max(1.0, static_cast<double>(shaded) / static_cast<double>(in_base));
     std::uint32_t joined = 0, left = range.index_count;
     std::vector<std::uint32_t> sample;
     for (std::size_t cluster = 0; cluster < count.size(); ++cluster) {
@@ -110,7 +118,8 @@ void ReplicaBuilder::bound_candidate(const OctreeReplica& range, std::vector<Nor
         if (joined == 0 ||
             (left > 0 && (joined < options_.min_record_indices || left < options_.min_record_indices)))
             continue;
-        clusters.push_back({bound_facing(batches_[index_of(range.batch)].positions, sample), joined});
+        clusters.push_back({bound_facing(batches_[index_of(range.batch)].positions, sample),
+                            static_cast<std::uint32_t>(dearer * joined)});
         joined = 0;
         sample.clear();
     }
