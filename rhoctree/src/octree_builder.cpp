@@ -261,8 +261,12 @@ void OctreeBuilder::bound_pieces() {
     std::vector<PieceChunk> chunks((pieces_.size() + kPiecesTogether - 1) / kPiecesTogether);
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
         const std::size_t end = std::min((c + 1) * kPiecesTogether, pieces_.size());
-        for (std::size_t p = c * kPiecesTogether; p < end && !progress_.stopped(); ++p)
+        VertexCacheOrder order;
+        for (std::size_t p = c * kPiecesTogether; p < end && !progress_.stopped(); ++p) {
+            const std::size_t before = chunks[c].clusters.size();
             bound_piece(static_cast<std::uint32_t>(p), chunks[c].clusters);
+            order_piece(static_cast<std::uint32_t>(p), std::span(chunks[c].clusters).subspan(before), order);
+        }
         progress_.advance(kPiecesTogether);
     });
     for (const PieceChunk& chunk : chunks)
@@ -317,6 +321,20 @@ void OctreeBuilder::bound_leaf_piece(std::uint32_t leaf, const OctreePiece& piec
     clusters.resize(before);
     restore_source_order(leaf, piece.batch);
     append_clusters(positions, indices, {}, options_.min_record_indices, clusters);
+}
+
+/// Within a record triangles may stand in any order: that which the vertex cache likes best. Leaves stay
+/// apart, and without normal order the source's order is kept.
+void OctreeBuilder::order_piece(std::uint32_t number, std::span<const NormalCluster> clusters,
+                                VertexCacheOrder& order) {
+    const OctreePiece& piece = pieces_[number];
+    if (!options_.normal_order || !octree_.is_leaf(NodeId{node_of_piece_[number]})) return;
+    std::size_t first = piece.first_index;
+    for (const NormalCluster& cluster : clusters) {
+        order.apply(std::span(indices_).subspan(first, cluster.index_count),
+                    std::span(cluster_of_triangle_).subspan(first / 3, cluster.index_count / 3));
+        first += cluster.index_count;
+    }
 }
 
 }  // namespace rhview

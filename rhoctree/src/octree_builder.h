@@ -12,6 +12,7 @@
 #include "rhview/rhoctree/normal_clusters.h"
 #include "rhview/rhoctree/rhoctree.h"
 #include "triangle_ids.h"
+#include "vertex_cache_order.h"
 
 namespace rhview {
 
@@ -63,6 +64,7 @@ class OctreeBuilder {
     void bound_pieces();
     void bound_piece(std::uint32_t piece, std::vector<NormalCluster>& clusters);
     void bound_leaf_piece(std::uint32_t leaf, const OctreePiece& piece, std::vector<NormalCluster>& clusters);
+    void order_piece(std::uint32_t piece, std::span<const NormalCluster> clusters, VertexCacheOrder& order);
 
     [[nodiscard]] bool is_ordered(std::uint32_t batch) const {
         return options_.normal_order && !batches_[batch].two_sided;

@@ -11,6 +11,7 @@
 
 #include "normal_order.h"
 #include "sample_views.h"
+#include "vertex_cache_order.h"
 #include "vertex_reuse.h"
 
 namespace rhview {
@@ -248,6 +249,12 @@ void ReplicaBuilder::emit_replica(const OctreeReplica& replica, std::vector<Norm
     ClusterSorter().sort(indices, cluster_of);
     append_clusters(batches_[index_of(replica.batch)].positions, indices, cluster_of,
                     options_.min_record_indices, clusters);
+    VertexCacheOrder order;
+    std::size_t first = 0;
+    for (const NormalCluster& cluster : clusters) {
+        order.apply(indices.subspan(first, cluster.index_count), {});
+        first += cluster.index_count;
+    }
 }
 
 }  // namespace rhview
