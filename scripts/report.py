@@ -67,10 +67,15 @@ def read(file):
         sys.exit(f"{file}: can't be read ({problem})")
 
 
+def colours_of(runs):
+    """One for each run, far apart in hue."""
+    return [plt.get_cmap("turbo")((i + 0.5) / len(runs)) for i in range(len(runs))]
+
+
 def plot_prediction(runs, file):
     figure, axes = plt.subplots(figsize=(7, 6))
-    for run in runs:
-        axes.scatter(run.measured, run.predicted, s=12, alpha=0.7, label=run.name)
+    for run, colour in zip(runs, colours_of(runs)):
+        axes.scatter(run.measured, run.predicted, s=12, alpha=0.8, color=colour, label=run.name)
     low = min(min(r.measured + r.predicted) for r in runs)
     high = max(max(r.measured + r.predicted) for r in runs)
     axes.plot([low, high], [low, high], color="black", linewidth=1, label="equal")
@@ -87,10 +92,10 @@ def plot_prediction(runs, file):
 
 def plot_residuals(runs, file):
     figure, (by_frame, by_size) = plt.subplots(1, 2, figsize=(11, 5), sharey=True)
-    for run in runs:
+    for run, colour in zip(runs, colours_of(runs)):
         percent = [100 * r for r in run.residuals()]
-        by_frame.plot(range(len(percent)), percent, marker=".", linewidth=0.7, label=run.name)
-        by_size.scatter([max(1, i) for i in run.indices], percent, s=12, alpha=0.7)
+        by_frame.plot(range(len(percent)), percent, marker=".", linewidth=0.7, color=colour, label=run.name)
+        by_size.scatter([max(1, i) for i in run.indices], percent, s=12, alpha=0.8, color=colour)
     for axes in (by_frame, by_size):
         axes.axhline(0, color="black", linewidth=1)
         axes.axhspan(-15, 15, color="grey", alpha=0.15)
