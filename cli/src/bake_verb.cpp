@@ -32,18 +32,6 @@ Result<DrawCosts> costs_of(const BakeOptions& options, const WantedConstants& wa
     return chosen->constants ? draw_costs(chosen->constants->profile, false) : DrawCosts();
 }
 
-Result<LoadedScene> load(const BakeOptions& options) {
-    std::optional<CameraPath> path;
-    if (options.path) {
-        Result<CameraPath> from_file = load_camera_path(*options.path);
-        if (!from_file) return from_file.error();
-        path = std::move(from_file).value();
-    }
-    Result<LoadedScene> loaded = load_scene(options.scene);
-    if (loaded && path) loaded->path = std::move(*path);
-    return loaded;
-}
-
 }  // namespace
 
 Result<int> run_bake(const BakeOptions& options) {
@@ -60,7 +48,7 @@ Result<int> run_bake(const BakeOptions& options) {
 
     Progress progress;
     progress.say("loading " + options.scene);
-    const Result<LoadedScene> loaded = load(options);
+    const Result<LoadedScene> loaded = load_scene(options.scene, options.path);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded->scene;
     progress.say("choosing timing constants");

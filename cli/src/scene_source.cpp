@@ -63,4 +63,14 @@ Result<LoadedScene> load_scene(const std::string& spec) {
     return LoadedScene{{std::move(scene).value(), std::move(path)}, {}};
 }
 
+Result<LoadedScene> load_scene(const std::string& spec,
+                               const std::optional<std::filesystem::path>& camera_path) {
+    if (!camera_path) return load_scene(spec);
+    Result<CameraPath> path = load_camera_path(*camera_path);
+    if (!path) return path.error();
+    Result<LoadedScene> loaded = load_scene(spec);
+    if (loaded) loaded->path = std::move(path).value();
+    return loaded;
+}
+
 }  // namespace rhview::cli

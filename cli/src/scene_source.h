@@ -27,6 +27,9 @@ struct LoadedScene : SceneAndPath {
 /// SCENE as the user names it: a named scene with parameters, or a file, baked ones too; with the path that
 /// walks it.
 Result<LoadedScene> load_scene(const std::string& spec);
+/// The same, walked along the path of `camera_path` where there is one; that file is read first.
+Result<LoadedScene> load_scene(const std::string& spec,
+                               const std::optional<std::filesystem::path>& camera_path);
 
 /// Whether `file` is named as a baked file.
 bool is_baked_name(const std::filesystem::path& file);

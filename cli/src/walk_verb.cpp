@@ -277,19 +277,12 @@ WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const
 }
 
 Result<LoadedScene> load(const WalkOptions& options) {
-    std::optional<CameraPath> path;
-    if (options.path) {
-        Result<CameraPath> from_file = load_camera_path(*options.path);
-        if (!from_file) return from_file.error();
-        path = std::move(from_file).value();
-    }
-    Result<LoadedScene> loaded = load_scene(options.scene);
+    Result<LoadedScene> loaded = load_scene(options.scene, options.path);
     if (loaded && loaded->baked && options.leaf)
         return Error{fmt::format(
             "--leaf {}: {} brings its octree, with leaves of at most {} triangles; bake it again with "
             "another --leaf",
             *options.leaf, options.scene, loaded->baked->octree.options.max_leaf_triangles)};
-    if (loaded && path) loaded->path = std::move(*path);
     return loaded;
 }
 
