@@ -46,10 +46,10 @@ void apply(const std::vector<std::pair<std::string, double>>& set, TimingProfile
 
 gl::CalibrationOptions quick_options(ClipDepth clip_depth) {
     gl::CalibrationOptions options;
-    options.frames = 60;
+    options.frames = 48;
     options.rounds = 2;
-    options.longest_s = 1.0;
-    options.largest_frame_ms = 20.0;
+    options.longest_s = 0.6;
+    options.largest_frame_ms = 10.0;
     options.clip_depth = clip_depth;
     return options;
 }

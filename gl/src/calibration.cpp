@@ -31,6 +31,7 @@ Result<double> probe(const CalibrationSubject& subject, Executor& executor, Rend
                      DesignOptions design) {
     design.frames = kProbeFrames;
     design.most_indices = kProbeIndices;
+    design.most_whole_view_indices = -1.0;
     design.most_draw_calls = 1.0;
     design.multi_draw = design.queries = false;
     std::vector<ExperimentFrame> frames = design_experiment(*subject.scene, subject.static_indices, design);

@@ -19,7 +19,7 @@ namespace rhview::gl {
 namespace {
 
 constexpr glm::vec3 kBackground(0.5f);
-constexpr std::size_t kWarmUpFrames = 16;
+constexpr std::size_t kWarmUpFrames = 8;
 
 // The corners of a box from the vertex number: twelve triangles, no buffer.
 constexpr const char* kBoxVertexShader = R"(#version 430 core
