@@ -27,6 +27,9 @@ struct FrameInput {
 class FramePlanner {
   public:
     virtual ~FramePlanner() = default;
+    /// Answers to the queries of earlier plans, in any order, before the next `plan`. Planners that ask
+    /// nothing ignore them.
+    virtual void absorb(std::span<const QueryAnswer> answers) { static_cast<void>(answers); }
     /// Replaces `plan`. Nothing that may be visible is left out.
     virtual void plan(const FrameInput& input, FramePlan& plan) = 0;
     /// The box of an entry of `FramePlan::chosen`.
