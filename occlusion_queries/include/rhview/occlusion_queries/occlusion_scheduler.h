@@ -82,8 +82,9 @@ class OcclusionScheduler {
     /// Answers of earlier frames in any order, each at most once; unknown tickets (twice answered, long
     /// given up) are counted and otherwise ignored.
     void absorb(std::span<const QueryAnswer> answers);
-    /// `frame_ns`: what the frame is predicted to take; exploration gets its share of it.
-    void begin_frame(double frame_ns);
+    /// `frame_ns`: what the frame is predicted to take; exploration gets its share of it. `screen_pixels`: of
+    /// the viewport.
+    void begin_frame(double frame_ns, double screen_pixels);
 
     /// The traversal is at `item`, which is in the frustum: what is believed of it. An item that was not
     /// visited in the frame before is forgotten first, and then believed to be `otherwise` (Hidden: with the
