@@ -32,6 +32,7 @@ struct WalkOptions {
     std::string scene;
     std::string method = "rhview";
     std::string mode = "exact";
+    std::string occlusion = "auto";
     std::string submission = "plain";
     std::string size = "1280x720";
     std::optional<std::filesystem::path> path;
