@@ -91,9 +91,8 @@ Result<std::optional<OcclusionOptions>> choose_occlusion(const WalkOptions& opti
         return occlusion;
     }
     if (!costs) {
-        Result<QueryCosts> measured = measure_query_costs(device, size);
-        if (!measured) return measured.error();
-        costs = *measured;
+        why_not = "todo";
+        return occlusion;
     }
     const double never = std::numeric_limits<double>::infinity();
     if (options.occlusion == "hardware") costs->box_pass = {.query_ns = never};
@@ -104,6 +103,11 @@ Result<std::optional<OcclusionOptions>> choose_occlusion(const WalkOptions& opti
     occlusion->shown_index_ns =
         constants->profile.c1_ns + constants->profile.primitive_ns.value_or(0.0) / 3.0;
     return occlusion;
+}
+
+Work without_queries(Work work) {
+    work.queries = 0.0;
+    return work;
 }
 
 /// Everything a walk needs on the device, and the walk itself.
@@ -198,6 +202,7 @@ class Walk {
             culling_view_of(frame), scene_.origin, object_boxes_, {target_->width(), target_->height()}};
         gl::DrawOptions draw;
         draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
+        draw.counter = &*work_counter_;
         target_->begin(clip_depth_, kSky);
         gl::finish();
         FrameRecord record;
@@ -324,11 +329,6 @@ class Walk {
     std::vector<float> reference_depths_;
 };
 
-Work without_queries(Work work) {
-    work.queries = 0.0;
-    return work;
-}
-
 WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const PreparedMethod& method,
                     const gl::DeviceInfo& device, PictureSize size) {
     const Scene& scene = loaded.scene;
@@ -397,7 +397,7 @@ Result<int> run_walk(const WalkOptions& options) {
     }
     const std::optional<UserConstants>& constants = chosen->constants;
     progress.say("building");
-    MethodOptions method_options{options.leaf, options.replica_budget, {}};
+    MethodOptions method_options{options.leaf, options.replica_budget, {}, {}};
     if (constants) method_options.costs = draw_costs(constants->profile, options.submission == "multi");
     WalkReport told;
     std::vector<std::uint32_t> object_indices;

@@ -27,9 +27,10 @@ float area_of(const Aabb& box) {
     return 2.0f * (e.x * e.y + e.y * e.z + e.z * e.x);
 }
 
+/// To ask about one thing and hang one draw on the answer.
 double cheapest_query_ns(const QueryCosts& costs) {
-    return std::min(costs.hardware.query_ns + costs.hardware.box_ns,
-                    costs.box_pass.query_ns + costs.box_pass.box_ns);
+    const auto price = [](const AnswerCosts& way) { return way.query_ns + way.box_ns + way.draw_ns; };
+    return std::min(price(costs.hardware), price(costs.box_pass));
 }
 
 }  // namespace
@@ -124,7 +125,8 @@ OcclusionCandidate NodeVisibility::candidate_of(std::uint32_t item, const Aabb& 
 double NodeVisibility::render_ns(std::uint32_t index) const {
     const OctreeNode& node = nodes_[index];
     const double index_ns = std::max(costs_.index_ns, options_.shown_index_ns);
-    return index_ns * (indices_before_[node.piece_end] - indices_before_[node.first_piece]) + costs_.draw_ns;
+    // Without the draw: a node that is shown shares one with its neighbours, as a rule.
+    return index_ns * (indices_before_[node.piece_end] - indices_before_[node.first_piece]);
 }
 
 NodeVisibility::Parts NodeVisibility::add_node(std::uint32_t index, bool testable, Belief belief) {
