@@ -294,13 +294,15 @@ class Walk {
         if (options_.method == "rhview")
             append_ranges_to_show(*method_.octree, make_frustum(culling_view, scene_.origin),
                                   make_viewpoint(culling_view, scene_.origin), to_show);
-        gl::Picture above = above_->draw(everything_, plan_, to_show, *method_.planner, *buffers_, bounds_,
-                                         culling_view, *executor_);
+        gl::Picture above = above_->draw(everything_, plan_, answers_, to_show, *method_.planner, *buffers_,
+                                         bounds_, culling_view, *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
                                   record.work.draw_calls, record.work.indices * 1e-6));
         reference.label("everything drawn");
         difference.label(fmt::format("missing pixels (red): {}", missing));
-        above.label(options_.method == "rhview"
+        above.label(!plan_.queries.empty()
+                        ? "from above: a colour per call; boxes asked about: red hidden, green seen"
+                    : options_.method == "rhview"
                         ? "from above: a colour per call (replicas blue, green), gaps violet, rest grey"
                         : "from above: a colour per call, rest grey, nodes blue, frustum red");
         return gl::sheet(*culled, reference, difference, above)
