@@ -104,6 +104,8 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000))
         ->each([&options](const std::string&) { options.check = true; });
+    walk->add_flag("--visible-set", options.visible_set,
+                   "Count the indices of the octree's leaves that show a pixel, by an item buffer");
     walk->add_option(
             "--freeze-culling", options.freeze_culling,
             "From this frame on, cull for its camera while the picture's goes on: shows what is left out")

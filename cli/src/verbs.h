@@ -45,6 +45,7 @@ struct WalkOptions {
     double replica_budget = 1.0;
     bool check = false;
     int check_every = 1;
+    bool visible_set = false;
     int images_every = 30;
     std::optional<int> freeze_culling;
     std::optional<std::filesystem::path> json;

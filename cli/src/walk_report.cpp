@@ -137,6 +137,10 @@ Json summary_json(const WalkReport& report) {
     summary["indices"] = statistics(report, [](const FrameRecord& f) { return f.work.indices; });
     summary["queries"] = statistics(report, [](const FrameRecord& f) { return f.work.queries; });
     add_occlusion(report, summary);
+    const bool has_set = !report.frames.empty() && report.frames.front().visible_set_indices.has_value();
+    summary["visible_set_indices"] =
+        has_set ? statistics(report, [](const FrameRecord& f) { return f.visible_set_indices.value_or(0); })
+                : Json(nullptr);
     summary["nodes_visited"] = statistics(report, [](const FrameRecord& f) { return f.nodes_visited; });
     summary["cull_ms"] = statistics(report, [](const FrameRecord& f) { return f.cull_ms; });
     summary["frame_ms"] = statistics(report, [](const FrameRecord& f) { return f.frame_ms; });
@@ -254,6 +258,7 @@ std::string to_json(const WalkReport& report) {
                                      {"gpu_ms", or_null(f.gpu_ms)},
                                      {"predicted_ms", or_null(f.predicted_ms)},
                                      {"running_predicted_ms", or_null(f.running_predicted_ms)},
+                                     {"visible_set_indices", or_null(f.visible_set_indices)},
                                      {"missing_pixels", or_null(f.missing_pixels)}});
     // A file name need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -300,6 +305,8 @@ std::string to_table(const WalkReport& report) {
     if (report.submission != "plain")
         row("sub-draws", 1, [](const FrameRecord& f) { return f.work.sub_draws; });
     row("indices", 0, [](const FrameRecord& f) { return f.work.indices; });
+    if (!report.frames.empty() && report.frames.front().visible_set_indices)
+        row("of visible leaves", 0, [](const FrameRecord& f) { return f.visible_set_indices.value_or(0); });
     if (report.has_occlusion()) {
         const auto of = [&](const char* name, int decimals, auto field) {
             row(name, decimals,

@@ -39,6 +39,7 @@ struct FrameRecord {
     std::optional<double> predicted_ms;
     std::optional<double> running_predicted_ms;  ///< with constants that follow the frames before
     std::optional<OcclusionRecord> occlusion;
+    std::optional<std::uint64_t> visible_set_indices;  ///< of the leaves that show a pixel
     std::optional<std::uint64_t> missing_pixels;
 };
 

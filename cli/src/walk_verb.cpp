@@ -14,6 +14,7 @@
 #include "picture_size.h"
 #include "progress.h"
 #include "rhview/gl/context.h"
+#include "rhview/gl/item_buffer.h"
 #include "rhview/gl/timer.h"
 #include "rhview/gl/work_counter.h"
 #include "rhview/rhoctree/draw_list.h"
@@ -39,6 +40,8 @@ Status check_options(const WalkOptions& options) {
     if (std::ranges::find(ways, options.occlusion) == ways.end())
         return Error{
             fmt::format("--occlusion {}: unknown; write {}", options.occlusion, fmt::join(ways, ", "))};
+    if (options.visible_set && (options.method == "none" || options.method == "frustum"))
+        return Error{fmt::format("--visible-set: {} has no octree; choose another --method", options.method)};
     if (options.mode == "latent" && (options.method != "rhview" || options.occlusion == "off"))
         return Error{fmt::format("--mode latent: of rhview with occlusion culling only; leave it out")};
     if (options.submission != "plain" && options.submission != "multi")
@@ -149,6 +152,7 @@ class Walk {
                 if (record.frame_ms > query_ms) running->observe({draws, 1e6 * (record.frame_ms - query_ms)});
             }
             report.plan_hash = plan_hash(plan_, report.plan_hash);
+            if (items_) record.visible_set_indices = visible_set_indices(frame);
             const bool checked = options_.check && frame % options_.check_every == 0;
             const bool pictured = options_.images && frame % options_.images_every == 0;
             if (checked || pictured)
@@ -178,6 +182,12 @@ class Walk {
         if (timer->gpu_timer_is_whole()) gpu_timer_.emplace();
         work_counter_.emplace();
         report.device.timer = gpu_timer_ ? "gpu" : "wall";
+        if (options_.visible_set) {
+            Result<gl::ItemBuffer> items = gl::ItemBuffer::create(size.width, size.height);
+            if (!items) return Error{"--size: " + items.error().message};
+            items_.emplace(std::move(items).value());
+            list_leaves();
+        }
         if (options_.images) {
             Result<ViewFromAbove> above = ViewFromAbove::create(size.width, size.height);
             if (!above) return above.error();
@@ -272,6 +282,22 @@ class Walk {
         return record;
     }
 
+    /// The octree's leaves as items, in their batches' order.
+    void list_leaves() {
+        for (std::uint32_t i = 0; i < method_.octree->nodes().size(); ++i)
+            if (method_.octree->is_leaf(NodeId{i}))
+                for (const DrawRange& range : method_.octree->ranges(NodeId{i}))
+                    leaves_.push_back({range, i});
+        std::ranges::stable_sort(leaves_, {}, [](const gl::ItemRange& leaf) { return leaf.range.batch; });
+    }
+
+    [[nodiscard]] std::uint64_t visible_set_indices(int frame) {
+        std::uint64_t indices = 0;
+        for (const std::uint32_t leaf : items_->visible_items(leaves_, *buffers_, view_of(frame)))
+            indices += 3 * std::uint64_t{method_.octree->node(NodeId{leaf}).triangle_count};
+        return indices;
+    }
+
     /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
     Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
         const View view = view_of(frame);
@@ -324,6 +350,8 @@ class Walk {
     std::optional<gl::GpuTimer> gpu_timer_;
     std::optional<gl::WorkCounter> work_counter_;
     std::optional<ViewFromAbove> above_;
+    std::optional<gl::ItemBuffer> items_;
+    std::vector<gl::ItemRange> leaves_;
     FramePlan plan_;
     std::vector<QueryAnswer> answers_;  ///< to the queries of the frame before
     FramePlan everything_;
