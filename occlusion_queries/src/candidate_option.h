@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "item_history.h"
 #include "query_prices.h"
@@ -33,38 +35,48 @@ struct CandidateOption {
 /// Prices the options of one frame.
 class OptionPricer {
   public:
+    /// How sure one can be of an item: by the number of its hidden answers; one more for the unknown.
     static constexpr std::uint32_t kRanks = KeepProbability::kLast + 2;
 
     OptionPricer(const OcclusionSettings& settings, const QueryCosts& costs, const ItemHistories& histories);
 
     [[nodiscard]] CandidateOption option(const OcclusionCandidate& candidate, const ItemHistory& item) const;
     /// What is left of a `First` that is drawn at once instead, to be known by the next frame.
-    [[nodiscard]] CandidateOption occluder(const OcclusionCandidate& candidate,
-                                           const ItemHistory& item) const;
+    [[nodiscard]] CandidateOption occluder(const OcclusionCandidate& candidate) const;
+    /// p(hidden) by rank.
+    [[nodiscard]] std::span<const float> p_by_rank() const { return p_by_rank_; }
 
   private:
     struct Prices {
-        double hardware = 0.0, box_pass = 0.0;
-        [[nodiscard]] double least() const { return hardware < box_pass ? hardware : box_pass; }
+        float hardware = 0.0f, box_pass = 0.0f;
+        [[nodiscard]] float least() const { return hardware < box_pass ? hardware : box_pass; }
     };
-    [[nodiscard]] CandidateOption doubtful(const OcclusionCandidate& candidate, const ItemHistory& item,
-                                           CandidateOption option) const;
-    [[nodiscard]] CandidateOption visible(const OcclusionCandidate& candidate, const ItemHistory& item,
-                                          CandidateOption option) const;
-    [[nodiscard]] Prices test_prices(const OcclusionCandidate& candidate) const;
-    [[nodiscard]] Prices first_prices(const OcclusionCandidate& candidate, double p_seen, double render_ns,
-                                      bool alone) const;
-    [[nodiscard]] double gain_while_hidden(const OcclusionCandidate& candidate, double render_ns) const;
-    void set_test(CandidateOption& option, const OcclusionCandidate& candidate, double value_ns) const;
+    /// AnswerCosts, in the precision that a decision needs.
+    struct Costs {
+        float query_ns, box_ns, pixel_ns, draw_ns;
+        explicit Costs(const AnswerCosts& costs);
+    };
+    void set_doubtful(CandidateOption& option, const OcclusionCandidate& candidate,
+                      const ItemHistory& item) const;
+    void set_renewal(CandidateOption& option, const OcclusionCandidate& candidate, const ItemHistory& item,
+                     float p) const;
+    void set_visible(CandidateOption& option, const OcclusionCandidate& candidate,
+                     const ItemHistory& item) const;
+    void set_test(CandidateOption& option, const OcclusionCandidate& candidate, float value_ns) const;
+    [[nodiscard]] Prices test_prices(const OcclusionCandidate& candidate, float hardware_query_ns) const;
+    [[nodiscard]] Prices first_prices(const OcclusionCandidate& candidate, float hardware_query_ns) const;
+    [[nodiscard]] float gain_while_hidden(const OcclusionCandidate& candidate, float render_ns) const;
     [[nodiscard]] bool is_fresh(const ItemHistory& item) const;
-    [[nodiscard]] std::uint8_t rank(const ItemHistory& item) const;
-    [[nodiscard]] double waited(const ItemHistory& item) const;
+    [[nodiscard]] float waited(const ItemHistory& item) const;
+    void rank_beliefs();
 
     const OcclusionSettings& settings_;
-    const QueryCosts& costs_;
     const ItemHistories& histories_;
-    double most_members_;
-    std::uint8_t unknown_rank_ = 0;
+    Costs hardware_, box_pass_;
+    float most_members_;
+    float latent_frames_;
+    std::array<float, kRanks> p_by_rank_{};
+    std::array<std::uint8_t, kRanks> rank_of_{};  ///< by hidden answers; the last is of the unknown
 };
 
 }  // namespace rhview

@@ -13,6 +13,8 @@ namespace {
 constexpr double kSavedFrames = 64.0;
 /// From this part of hidden answers on, the whole share is spent: of what is explored, a quarter pays.
 constexpr double kRichYield = 0.25;
+/// The first few answers already count.
+constexpr double kYieldPriorAnswers = 4.0;
 /// Opening a way for exploration alone waits until at least as much goes into queries.
 constexpr double kOpening = 2.0;
 
@@ -21,7 +23,8 @@ constexpr double kOpening = 2.0;
 Exploration::Exploration(const OcclusionSettings& settings)
     : share_(settings.exploration_share > 0.0 ? std::min(settings.exploration_share, 1.0) : 0.0),
       floor_(settings.exploration_floor > 0.0 ? std::min(settings.exploration_floor, 1.0) : 0.0),
-      found_(kRichYield, settings.memory_answers >= 1.0 ? settings.memory_answers : 1.0) {}
+      found_(kRichYield, kYieldPriorAnswers, settings.memory_answers >= 1.0 ? settings.memory_answers : 1.0) {
+}
 
 void Exploration::begin_frame(double frame_ns) {
     found_.take_in();

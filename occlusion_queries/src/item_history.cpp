@@ -13,6 +13,12 @@ constexpr std::uint8_t kDoubtfulAnswers = 2;
 /// After so many hidden answers in a row, an item's earlier failures to stay merged are forgotten.
 constexpr std::uint8_t kMergeForgiven = 8;
 constexpr std::uint8_t kMostFailures = 16;
+/// So long after it came into view at most, an item is given the benefit of the doubt: answers about its
+/// occluders are a few frames on their way.
+constexpr std::uint32_t kColdFrames = 8;
+
+/// The prior of p for unknown items weighs little: the first frame's answers overrule it.
+constexpr double kUnknownPriorAnswers = 4.0;
 
 double at_least(double value, double least) {
     return value >= least ? value : least;
@@ -21,8 +27,10 @@ double at_least(double value, double least) {
 }  // namespace
 
 ItemHistories::ItemHistories(const OcclusionSettings& settings)
-    : keep_(settings.keep_certainty, settings.keep_doubt),
-      unknown_(at_least(std::min(settings.unknown_hidden, 1.0), 0.0), at_least(settings.memory_answers, 1.0)),
+    : keep_(settings.keep_certainty, settings.keep_doubt, at_least(settings.keep_prior_answers, 1.0),
+            at_least(settings.memory_answers, 1.0)),
+      unknown_(at_least(std::min(settings.unknown_hidden, 1.0), 0.0), kUnknownPriorAnswers,
+               at_least(settings.memory_answers, 1.0)),
       turning_(at_least(settings.turn_frames, 1.0), at_least(settings.memory_item_frames, 1.0)),
       p_unknown_(unknown_.mean()),
       turn_frames_(turning_.mean_frames()),
@@ -34,6 +42,7 @@ ItemHistories::ItemHistories(const OcclusionSettings& settings)
 void ItemHistories::begin_frame() {
     ++frame_;
     doubtful_ = 0;
+    keep_.take_in();
     unknown_.take_in();
     turning_.take_in();
     p_unknown_ = unknown_.mean();
@@ -72,9 +81,14 @@ void ItemHistories::answer(const MemberAnswer& answer) {
     if (answer.item >= items_.size()) return;
     ItemHistory& item = items_[answer.item];
     if (item.visited == 0 || answer.asked_frame < item.since || answer.asked_frame <= item.answered) return;
+    // Seen before it was known what it could hide behind: no news.
+    if (answer.visible && answer.nothing_in_front && item.belief == Belief::Unknown &&
+        answer.asked_frame - item.since < kColdFrames) {
+        return;
+    }
     if (answer.learnt) learn(item, answer);
     if (!answer.visible) return believe_hidden(item, answer);
-    if (answer.alone) return believe_visible(item, answer);
+    if (answer.members == 1) return believe_visible(item, answer);
     if (item.belief == Belief::Visible) return;
     item.ask_alone = true;
     item.hidden_answers = std::min(item.hidden_answers, kDoubtfulAnswers);
@@ -119,17 +133,18 @@ void ItemHistories::see(std::uint32_t item) {
 }
 
 void ItemHistories::learn(const ItemHistory& item, const MemberAnswer& answer) {
+    if (answer.asked_as == Belief::Hidden && item.belief == Belief::Hidden) {
+        keep_.add(item.hidden_answers, answer.visible, answer.members);
+    }
     // A shared query that saw something does not say whom.
-    if (answer.visible && !answer.alone) return;
+    if (answer.visible && answer.members > 1) return;
     if (answer.asked_as == Belief::Unknown) unknown_.add(!answer.visible);
     if (answer.asked_as != Belief::Visible || item.belief != Belief::Visible) return;
     const std::uint32_t before = std::max(item.answered, item.visible_since);
     if (answer.asked_frame > before) turning_.add(!answer.visible, answer.asked_frame - before);
 }
 
-double ItemHistories::p_hidden(const ItemHistory& item) const {
-    if (item.belief == Belief::Hidden) return keep_(item.hidden_answers);
-    if (item.belief == Belief::Unknown) return p_unknown_;
+double ItemHistories::p_visible_hidden(const ItemHistory& item) const {
     // The chance to have turned since, where the rate itself is only known by how long it did not: a Lomax
     // distribution.
     const std::uint32_t last = std::min(frame_, std::max(item.answered, item.visible_since));

@@ -34,8 +34,9 @@ struct MemberAnswer {
     std::uint32_t asked_frame = 0;
     Belief asked_as = Belief::Unknown;  ///< what was believed then
     bool visible = true;
-    bool alone = true;   ///< the query's only member
-    bool learnt = true;  ///< false: given up, which says nothing about the scene
+    bool nothing_in_front = false;  ///< it was asked in a cold frame, before occluders were known
+    std::uint32_t members = 1;      ///< of the query
+    bool learnt = true;             ///< false: given up, which says nothing about the scene
 };
 
 /// The histories of all items, and what they teach about items of their kind. No call allocates but `resize`.
@@ -59,7 +60,10 @@ class ItemHistories {
     /// It is drawn and cannot be asked about: the eye is in it.
     void see(std::uint32_t item);
 
-    [[nodiscard]] double p_hidden(const ItemHistory& item) const;
+    [[nodiscard]] double p_hidden(const ItemHistory& item) const {
+        if (item.belief == Belief::Hidden) return keep_(item.hidden_answers);
+        return item.belief == Belief::Unknown ? p_unknown_ : p_visible_hidden(item);
+    }
     [[nodiscard]] double p_unknown() const { return p_unknown_; }
     [[nodiscard]] const KeepProbability& keep() const { return keep_; }
     /// Frames in which an item seen for `visible_frames` turns hidden, on average: that of all, and the more
@@ -71,6 +75,7 @@ class ItemHistories {
     void believe_visible(ItemHistory& item, const MemberAnswer& answer);
     void turn_visible(ItemHistory& item, std::uint32_t id, std::uint32_t frame);
     void back_off(ItemHistory& item);
+    [[nodiscard]] double p_visible_hidden(const ItemHistory& item) const;
     void learn(const ItemHistory& item, const MemberAnswer& answer);
     [[nodiscard]] std::uint32_t random_phase(std::uint32_t item) const;
 

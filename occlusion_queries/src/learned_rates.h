@@ -12,10 +12,15 @@ namespace rhview {
 /// collected and taken in together, so that their order doesn't matter.
 class LearnedProbability {
   public:
-    /// The prior weighs as much as `kPriorWeight` answers.
-    LearnedProbability(double prior, double memory) : prior_(prior), memory_(memory) {}
+    /// The prior weighs as much as `prior_answers`.
+    LearnedProbability(double prior, double prior_answers, double memory)
+        : prior_(prior), prior_answers_(prior_answers), memory_(memory) {}
 
     void add(bool yes) { ++(yes ? new_yes_ : new_no_); }
+    void add(double yes, double no) {
+        new_yes_ += yes;
+        new_no_ += no;
+    }
     void take_in() {
         const double count = new_yes_ + new_no_;
         if (count == 0.0) return;
@@ -25,15 +30,16 @@ class LearnedProbability {
         new_yes_ = new_no_ = 0.0;
     }
     [[nodiscard]] double mean() const {
-        return std::clamp((prior_ * kPriorWeight + yes_) / (kPriorWeight + yes_ + no_), kLeast, 1.0 - kLeast);
+        return std::clamp((prior_ * prior_answers_ + yes_) / (prior_answers_ + yes_ + no_), kLeast,
+                          1.0 - kLeast);
     }
 
   private:
-    static constexpr double kPriorWeight = 4.0;
     /// Away from 0 and 1: a learned certainty would never be questioned again.
     static constexpr double kLeast = 1e-3;
 
     double prior_;
+    double prior_answers_;
     double memory_;
     double yes_ = 0.0, no_ = 0.0;
     double new_yes_ = 0.0, new_no_ = 0.0;

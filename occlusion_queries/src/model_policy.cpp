@@ -37,10 +37,10 @@ void ModelPolicy::decide(std::span<const OcclusionCandidate> candidates, const Q
     const OptionPricer pricer(settings_, costs, histories);
     appraise(candidates, pricer, histories);
     if (covered_pixels_ < settings_.cold_coverage * screen_pixels_) {
-        put_occluders_in_front(candidates, pricer, histories);
+        writer.set_nothing_in_front(put_occluders_in_front(candidates, pricer, histories));
     }
-    ask_each(candidates, histories, choose_ways(costs), writer, out);
-    ask_groups(writer, out);
+    ask_each(pricer, choose_ways(costs), writer, out);
+    ask_groups(pricer, writer, out);
     out.exploration_ns = exploration_.spend(candidates, options_, histories, out, writer);
 }
 
@@ -50,19 +50,18 @@ void ModelPolicy::appraise(std::span<const OcclusionCandidate> candidates, const
     covered_pixels_ = 0.0;
     for (const OcclusionCandidate& candidate : candidates) {
         if (!candidate.testable) histories.see(candidate.item);
-        const CandidateOption& option =
-            options_.emplace_back(pricer.option(candidate, histories[candidate.item]));
-        const bool drawn = option.ask == Ask::Nothing || option.ask == Ask::Test;
-        if (drawn && candidate.pixels > 0.0f) covered_pixels_ += candidate.pixels;
+        const ItemHistory& item = histories[candidate.item];
+        options_.push_back(pricer.option(candidate, item));
+        if (item.belief == Belief::Visible && candidate.pixels > 0.0f) covered_pixels_ += candidate.pixels;
     }
 }
 
-void ModelPolicy::put_occluders_in_front(std::span<const OcclusionCandidate> candidates,
+bool ModelPolicy::put_occluders_in_front(std::span<const OcclusionCandidate> candidates,
                                          const OptionPricer& pricer, const ItemHistories& histories) {
     occluders_.clear();
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
         const std::uint32_t item = candidates[i].item;
-        if (options_[i].ask != Ask::First || histories[item].belief != Belief::Unknown) continue;
+        if (histories[item].belief != Belief::Unknown) continue;
         const float distance = candidates[i].distance;
         occluders_.push_back({distance == distance ? distance : 3e38f, item, i});
     }
@@ -70,15 +69,20 @@ void ModelPolicy::put_occluders_in_front(std::span<const OcclusionCandidate> can
         return std::tie(a.distance, a.item) > std::tie(b.distance, b.item);
     };
     std::make_heap(occluders_.begin(), occluders_.end(), farther);
+    bool found = false;
     const double enough = settings_.cold_coverage * screen_pixels_;
     while (!occluders_.empty() && covered_pixels_ < enough) {
         const std::uint32_t nearest = occluders_.front().candidate;
-        const OcclusionCandidate& candidate = candidates[nearest];
-        options_[nearest] = pricer.occluder(candidate, histories[candidate.item]);
-        if (candidate.pixels > 0.0f) covered_pixels_ += candidate.pixels;
+        const float pixels = candidates[nearest].pixels;
+        if (options_[nearest].ask == Ask::First) {
+            options_[nearest] = pricer.occluder(candidates[nearest]);
+            found = true;
+        }
+        if (pixels > 0.0f) covered_pixels_ += pixels;
         std::pop_heap(occluders_.begin(), occluders_.end(), farther);
         occluders_.pop_back();
     }
+    return found;
 }
 
 /// A way costs its `frame_ns` once it is used: the frame's totals with neither, one and both are compared.
@@ -106,11 +110,11 @@ ModelPolicy::Choice ModelPolicy::choose(const CandidateOption& option, Ways ways
             std::max(hardware, box_pass) > 0.0};
 }
 
-void ModelPolicy::ask_each(std::span<const OcclusionCandidate> candidates, const ItemHistories& histories,
-                           Ways ways, QueryWriter& writer, OcclusionDecisions& out) {
+void ModelPolicy::ask_each(const OptionPricer& pricer, Ways ways, QueryWriter& writer,
+                           OcclusionDecisions& out) {
     first_.clear();
     renewed_.clear();
-    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+    for (std::uint32_t i = 0; i < options_.size(); ++i) {
         const CandidateOption& option = options_[i];
         if (option.ask == Ask::Nothing) continue;
         const bool skipped = option.ask == Ask::Renew;
@@ -122,28 +126,30 @@ void ModelPolicy::ask_each(std::span<const OcclusionCandidate> candidates, const
         if (!choice.pays) continue;
         if (option.ask == Ask::Test) {
             writer.ask({&i, 1}, choice.way, OcclusionAction::DrawAndQuery);
-            continue;
+        } else if (choice.way == QueryWay::HardwareQuery && !option.alone) {
+            (skipped ? renewed_ : first_).add(i);
+        } else {
+            writer.ask({&i, 1}, choice.way, skipped ? OcclusionAction::Skip : OcclusionAction::QueryFirst);
+            if (!skipped)
+                out.saved_ns += static_cast<double>(pricer.p_by_rank()[option.rank]) * option.render_ns;
         }
-        const auto p = static_cast<float>(histories.p_hidden(histories[candidates[i].item]));
-        if (choice.way == QueryWay::HardwareQuery && !option.alone) {
-            (skipped ? renewed_ : first_).add({i, p, skipped ? 0.0f : option.render_ns, option.rank});
-            continue;
-        }
-        writer.ask({&i, 1}, choice.way, skipped ? OcclusionAction::Skip : OcclusionAction::QueryFirst);
-        if (!skipped) out.saved_ns += static_cast<double>(p) * option.render_ns;
     }
 }
 
-void ModelPolicy::ask_groups(QueryWriter& writer, OcclusionDecisions& out) {
-    const double query_ns = writer.costs(QueryWay::HardwareQuery).query_ns;
-    const std::uint32_t most = std::max(settings_.max_multiquery, 1u);
-    first_.for_each_group(query_ns, most, [&](std::span<const std::uint32_t> members, double p_all) {
+void ModelPolicy::ask_groups(const OptionPricer& pricer, QueryWriter& writer, OcclusionDecisions& out) {
+    Multiqueries::Price price;
+    price.query_ns = writer.costs(QueryWay::HardwareQuery).query_ns;
+    price.most = std::max(settings_.max_multiquery, 1u);
+    const auto ask_first = [&](std::span<const std::uint32_t> members, double p_all) {
         writer.ask(members, QueryWay::HardwareQuery, OcclusionAction::QueryFirst);
         for (const std::uint32_t member : members) out.saved_ns += p_all * options_[member].render_ns;
-    });
-    renewed_.for_each_group(query_ns, most, [&](std::span<const std::uint32_t> members, double) {
+    };
+    first_.for_each_group(options_, pricer.p_by_rank(), price, ask_first);
+    price.draws_on_it = false;
+    const auto renew = [&](std::span<const std::uint32_t> members, double) {
         writer.ask(members, QueryWay::HardwareQuery, OcclusionAction::Skip);
-    });
+    };
+    renewed_.for_each_group(options_, pricer.p_by_rank(), price, renew);
 }
 
 }  // namespace rhview

@@ -42,13 +42,13 @@ class ModelPolicy {
 
     void appraise(std::span<const OcclusionCandidate> candidates, const OptionPricer& pricer,
                   ItemHistories& histories);
-    void put_occluders_in_front(std::span<const OcclusionCandidate> candidates, const OptionPricer& pricer,
+    /// True if there are some whose answers are not known yet.
+    bool put_occluders_in_front(std::span<const OcclusionCandidate> candidates, const OptionPricer& pricer,
                                 const ItemHistories& histories);
     [[nodiscard]] Ways choose_ways(const QueryCosts& costs) const;
     static Choice choose(const CandidateOption& option, Ways ways);
-    void ask_each(std::span<const OcclusionCandidate> candidates, const ItemHistories& histories, Ways ways,
-                  QueryWriter& writer, OcclusionDecisions& out);
-    void ask_groups(QueryWriter& writer, OcclusionDecisions& out);
+    void ask_each(const OptionPricer& pricer, Ways ways, QueryWriter& writer, OcclusionDecisions& out);
+    void ask_groups(const OptionPricer& pricer, QueryWriter& writer, OcclusionDecisions& out);
 
     const OcclusionSettings settings_;
     Exploration exploration_;
@@ -56,7 +56,7 @@ class ModelPolicy {
     std::vector<CandidateOption> options_;
     std::vector<Occluder> occluders_;
     double screen_pixels_ = 0.0;
-    double covered_pixels_ = 0.0;  ///< by what is drawn at once
+    double covered_pixels_ = 0.0;  ///< by what is believed visible, and occluders
 };
 
 }  // namespace rhview

@@ -9,42 +9,38 @@
 namespace rhview {
 
 void Multiqueries::reserve(std::size_t count) {
-    entries_.reserve(count);
-    sorted_.reserve(count);
     candidates_.reserve(count);
+    sorted_.reserve(count);
 }
 
-void Multiqueries::sort_by_rank() {
+void Multiqueries::sort_by_rank(std::span<const CandidateOption> options) {
     std::array<std::uint32_t, OptionPricer::kRanks + 1> starts{};
-    for (const Entry& entry : entries_) ++starts[entry.rank + 1];
+    for (const std::uint32_t candidate : candidates_) ++starts[options[candidate].rank + 1];
     for (std::size_t rank = 1; rank < starts.size(); ++rank) starts[rank] += starts[rank - 1];
-    sorted_.resize(entries_.size());
-    candidates_.resize(entries_.size());
-    for (const Entry& entry : entries_) {
-        const std::uint32_t place = starts[entry.rank]++;
-        sorted_[place] = entry;
-        candidates_[place] = entry.candidate;
-    }
+    sorted_.resize(candidates_.size());
+    for (const std::uint32_t candidate : candidates_) sorted_[starts[options[candidate].rank]++] = candidate;
 }
 
 /// The longest start of what is left whose overhead per member falls with each member. Overhead is what a
 /// group costs beyond its members' boxes and those draws that are seen anyway: the query; and if one is seen,
 /// the members' own queries in the next frame and the hidden ones drawn in vain.
-std::size_t Multiqueries::group_at(std::size_t first, double query_ns, std::uint32_t most,
-                                   double& p_all) const {
-    p_all = sorted_[first].p_hidden;
-    double render_ns = sorted_[first].render_ns;
-    double seen_ns = (1.0 - sorted_[first].p_hidden) * sorted_[first].render_ns;
-    double overhead_ns = query_ns;
-    std::size_t count = 1;
-    while (count < most && first + count < sorted_.size()) {
-        const Entry& next = sorted_[first + count];
-        const double p = p_all * next.p_hidden;
-        const double all_ns = render_ns + next.render_ns;
-        const double some_ns = seen_ns + (1.0 - next.p_hidden) * next.render_ns;
+std::size_t Multiqueries::group(std::span<const std::uint32_t> left, std::span<const CandidateOption> options,
+                                std::span<const float> p_by_rank, const Price& price, double& p_all) {
+    double render_ns = 0.0, seen_ns = 0.0, overhead_ns = kNever;
+    p_all = 1.0;
+    std::size_t count = 0;
+    const std::size_t most = std::min<std::size_t>(price.most, left.size());
+    while (count < most) {
+        const CandidateOption& next = options[left[count]];
+        const double p_next = p_by_rank[next.rank];
+        const double next_ns = price.draws_on_it ? next.render_ns : 0.0;
+        const double p = p_all * p_next;
+        const double all_ns = render_ns + next_ns;
+        const double some_ns = seen_ns + (1.0 - p_next) * next_ns;
         const double members = static_cast<double>(count) + 1.0;
-        const double overhead = query_ns + (1.0 - p) * (members * query_ns + all_ns) - some_ns;
-        if (!(overhead * static_cast<double>(count) < overhead_ns * members)) break;
+        const double again_ns = count == 0 ? 0.0 : members * price.query_ns;
+        const double overhead = price.query_ns + (1.0 - p) * (again_ns + all_ns) - some_ns;
+        if (count > 0 && !(overhead * static_cast<double>(count) < overhead_ns * members)) break;
         p_all = p;
         render_ns = all_ns;
         seen_ns = some_ns;

@@ -16,37 +16,38 @@ namespace rhview {
 /// alone in the next frame. Source: CHC++'s multiqueries, with prices instead of counts (docs/occlusion.md).
 class Multiqueries {
   public:
-    struct Entry {
-        std::uint32_t candidate = 0;
-        float p_hidden = 0.0f;
-        float render_ns = 0.0f;  ///< drawn in vain if another member is seen
-        std::uint8_t rank = 0;   ///< below OptionPricer::kRanks
+    struct Price {
+        double query_ns = 0.0;
+        std::uint32_t most = 1;   ///< members
+        bool draws_on_it = true;  ///< what its members draw hangs on it, and is drawn in vain if one is seen
     };
 
-    void clear() { entries_.clear(); }
+    void clear() { candidates_.clear(); }
     void reserve(std::size_t count);
-    void add(const Entry& entry) { entries_.push_back(entry); }
+    void add(std::uint32_t candidate) { candidates_.push_back(candidate); }
 
     /// Calls `emit(candidates, p)` per group: p that all are hidden, by what is known of each. Descending
-    /// p_hidden, ties as added. Linear.
+    /// p(hidden), ties as added. Linear.
     template <class Emit>
-    void for_each_group(double query_ns, std::uint32_t most, Emit&& emit) {
-        sort_by_rank();
-        for (std::size_t first = 0; first < sorted_.size();) {
+    void for_each_group(std::span<const CandidateOption> options, std::span<const float> p_by_rank,
+                        const Price& price, Emit&& emit) {
+        sort_by_rank(options);
+        std::span<const std::uint32_t> left = sorted_;
+        while (!left.empty()) {
             double p_all = 1.0;
-            const std::size_t count = group_at(first, query_ns, most, p_all);
-            emit(std::span<const std::uint32_t>(candidates_).subspan(first, count), p_all);
-            first += count;
+            const std::size_t count = group(left, options, p_by_rank, price, p_all);
+            emit(left.first(count), p_all);
+            left = left.subspan(count);
         }
     }
 
   private:
-    void sort_by_rank();
-    std::size_t group_at(std::size_t first, double query_ns, std::uint32_t most, double& p_all) const;
+    void sort_by_rank(std::span<const CandidateOption> options);
+    static std::size_t group(std::span<const std::uint32_t> left, std::span<const CandidateOption> options,
+                             std::span<const float> p_by_rank, const Price& price, double& p_all);
 
-    std::vector<Entry> entries_;
-    std::vector<Entry> sorted_;
-    std::vector<std::uint32_t> candidates_;  ///< of `sorted_`
+    std::vector<std::uint32_t> candidates_;
+    std::vector<std::uint32_t> sorted_;
 };
 
 }  // namespace rhview

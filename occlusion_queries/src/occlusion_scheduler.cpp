@@ -67,7 +67,8 @@ void OcclusionScheduler::State::tell_members(const PendingQueries::Found& query,
     MemberAnswer answer;
     answer.asked_frame = query.frame;
     answer.visible = visible;
-    answer.alone = query.members.size() == 1;
+    answer.members = static_cast<std::uint32_t>(query.members.size());
+    answer.nothing_in_front = query.nothing_in_front;
     answer.learnt = learnt;
     for (const PendingMember& member : query.members) {
         answer.item = member.item();

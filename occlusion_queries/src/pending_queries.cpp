@@ -19,12 +19,12 @@ void PendingQueries::reserve(std::size_t candidates) {
     }
 }
 
-std::uint64_t PendingQueries::add_query(bool explores) {
+std::uint64_t PendingQueries::add_query(bool explores, bool nothing_in_front) {
     std::vector<Query>& queries = current_->queries;
     const std::uint32_t first =
         queries.empty() ? 0 : queries.back().first_member + queries.back().member_count;
     const auto count = static_cast<std::uint32_t>(current_->members.size() - first);
-    queries.push_back({first, count, false, explores});
+    queries.push_back({first, count, false, explores, nothing_in_front});
     return (std::uint64_t{current_->frame} << 32) + queries.size() - 1;
 }
 

@@ -35,10 +35,12 @@ class PendingQueries {
         std::uint32_t member_count = 0;
         bool answered = false;
         bool explores = false;
+        bool nothing_in_front = false;
     };
     struct Found {
         std::uint32_t frame = 0;
         bool explores = false;
+        bool nothing_in_front = false;
         std::span<const PendingMember> members;
     };
 
@@ -60,8 +62,9 @@ class PendingQueries {
         slot.members.clear();
         current_ = &slot;
     }
-    /// A query of this frame, with the members added since the last.
-    std::uint64_t add_query(bool explores);
+    /// A query of this frame, with the members added since the last. `nothing_in_front`: few occluders are
+    /// known yet, so that seeing its members says little.
+    std::uint64_t add_query(bool explores, bool nothing_in_front);
     void add_member(PendingMember member) { current_->members.push_back(member); }
 
     /// Marks the query answered. False: nobody asked, or it was answered or given up.
@@ -74,7 +77,10 @@ class PendingQueries {
         std::vector<PendingMember> members;
     };
     static Found found(const Frame& frame, const Query& query) {
-        return {frame.frame, query.explores, {frame.members.data() + query.first_member, query.member_count}};
+        return {frame.frame,
+                query.explores,
+                query.nothing_in_front,
+                {frame.members.data() + query.first_member, query.member_count}};
     }
 
     std::vector<Frame> frames_;

@@ -22,8 +22,8 @@ inline AnswerCosts usable_costs(const AnswerCosts& costs) {
 }
 
 /// What drawing costs, if it is known; else 0: nothing is gained by leaving it out, so it is drawn.
-inline double usable_render_ns(float render_ns) {
-    return render_ns > 0.0f ? std::min<double>(render_ns, 1e15) : 0.0;
+inline float usable_render_ns(float render_ns) {
+    return render_ns > 0.0f ? std::min(render_ns, 1e15f) : 0.0f;
 }
 
 /// What `candidate` adds to a query, without the query itself. NaN where a factor is unknown: no comparison
@@ -37,16 +37,15 @@ inline double conditional_ns(const AnswerCosts& costs, const OcclusionCandidate&
 }
 
 /// What a member of a multiquery pays for the query: of n alike, that take `render_ns` each and are seen with
-/// probability `p_seen` each, one saves the others' queries unless it is seen, and then all are drawn and
-/// asked again: q/n + p_seen·(n·q + (n−1)·render), to first order in p_seen, at the best n up to `most`.
-inline double query_share_ns(double query_ns, double p_seen, double render_ns, double most) {
-    if (!(query_ns < kNever)) return kNever;
-    const double alone = query_ns;
-    if (query_ns == 0.0 || most <= 1.0) return alone;
-    const double best = std::sqrt(query_ns / (p_seen * (query_ns + render_ns)));
-    const double members = std::clamp(best, 1.0, most);
-    const double shared = query_ns / members + p_seen * (members * query_ns + (members - 1.0) * render_ns);
-    return std::min(alone, shared);
+/// probability `p_seen` each, it pays q/n, and if one is seen all are drawn and asked again alone:
+/// p_seen·(n·q + (n−1)·render), to first order. The least over n ≤ `most` is at n = q/s,
+/// s = √(q·p_seen·(q + render)).
+inline float query_share_ns(float query_ns, float p_seen, float render_ns, float most) {
+    const float step = std::sqrt(query_ns * p_seen * (query_ns + render_ns));
+    if (!(step < query_ns) || most <= 1.0f) return query_ns;
+    const float free = 2.0f * step - p_seen * render_ns;
+    const float full = query_ns / most + p_seen * (most * query_ns + (most - 1.0f) * render_ns);
+    return step * most < query_ns ? full : free;
 }
 
 }  // namespace rhview

@@ -29,7 +29,7 @@ double QueryWriter::ask(std::span<const std::uint32_t> members, QueryWay way, Oc
         pending_.add_member({candidate.item, item.belief});
         item.tested = histories_.frame();
     }
-    query.ticket = pending_.add_query(explores);
+    query.ticket = pending_.add_query(explores, nothing_in_front_ && action == OcclusionAction::QueryFirst);
     out_.queries.push_back(query);
     out_.query_ns += ns;
     if (bool& used = uses_[static_cast<std::size_t>(way)]; !used) {

@@ -24,6 +24,8 @@ class QueryWriter {
     /// the way's own.
     double ask(std::span<const std::uint32_t> members, QueryWay way, OcclusionAction action,
                bool explores = false);
+    /// From now on, for what hangs on its query.
+    void set_nothing_in_front(bool nothing) { nothing_in_front_ = nothing; }
     [[nodiscard]] bool uses(QueryWay way) const { return uses_[static_cast<std::size_t>(way)]; }
     [[nodiscard]] const AnswerCosts& costs(QueryWay way) const {
         return way == QueryWay::HardwareQuery ? costs_.hardware : costs_.box_pass;
@@ -35,6 +37,7 @@ class QueryWriter {
     ItemHistories& histories_;
     PendingQueries& pending_;
     OcclusionDecisions& out_;
+    bool nothing_in_front_ = false;
     bool uses_[2] = {false, false};
 };
 

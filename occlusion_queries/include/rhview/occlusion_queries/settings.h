@@ -35,6 +35,8 @@ struct OcclusionSettings {
     /// CHC++ fitted such a curve to measurements; 0.99 and 0.7 are an implementation's (another: 0.98, 0.68).
     double keep_certainty = 0.99;
     double keep_doubt = 0.7;
+    /// As many answers as this curve weighs, at each i, against what answers tell. Ours.
+    double keep_prior_answers = 50.0;
     /// p that an item of which nothing is known is hidden, until answers tell. Ours: no preference.
     double unknown_hidden = 0.5;
     /// Frames until an item that is seen turns hidden, on average, until answers tell. Ours: about the time
