@@ -18,6 +18,11 @@ constexpr double kUnknownGrain = 16.0;
 // A box nearer to the near plane than this share of its farthest reach is not asked about: more than drawing
 // it may widen it by (a part of a pixel).
 constexpr float kNearMargin = 1e-3f;
+constexpr float kRounding = 0x1p-22f;
+
+// A leaf is asked about in pieces if these, weighted by their indices, have less than this share of its
+// surface: what is left to be drawn of it would at least be halved, by the surface area heuristic.
+constexpr double kSplitArea = 0.5;
 
 // More boxes than this describe no node: each has its price.
 constexpr std::size_t kMaxTightBoxes = 16;
@@ -38,10 +43,11 @@ double cheapest_query_ns(const QueryCosts& costs) {
 NodeVisibility::NodeVisibility(const RhOctree& octree, const OcclusionOptions& options)
     : octree_(octree),
       nodes_(octree.nodes()),
+      pieces_(octree.pieces()),
       options_(options),
       scheduler_(options.settings, options.costs),
       grain_ns_(kUnknownGrain * cheapest_query_ns(options.costs)) {
-    scheduler_.resize(nodes_.size());
+    scheduler_.resize(first_object_item());
     indices_before_.reserve(octree.pieces().size() + 1);
     std::uint32_t sum = 0;
     for (const OctreePiece& piece : octree.pieces()) {
@@ -50,6 +56,27 @@ NodeVisibility::NodeVisibility(const RhOctree& octree, const OcclusionOptions& o
     }
     indices_before_.push_back(sum);
     find_tight_boxes();
+    find_split_leaves();
+}
+
+void NodeVisibility::Parts::add(const Parts& part) {
+    if (!part.any) return;
+    any = true;
+    all_hidden = all_hidden && part.all_hidden;
+    p_hidden = std::min(p_hidden, part.p_hidden);
+}
+
+void NodeVisibility::find_split_leaves() {
+    is_split_.resize(nodes_.size());
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+        const OctreeNode& node = nodes_[i];
+        if (!octree_.is_leaf(NodeId{i}) || node.piece_end < node.first_piece + 2) continue;
+        double weighted = 0.0;
+        for (std::uint32_t p = node.first_piece; p < node.piece_end; ++p)
+            weighted += static_cast<double>(area_of(pieces_[p].bounds)) * pieces_[p].index_count;
+        const std::uint32_t indices = indices_before_[node.piece_end] - indices_before_[node.first_piece];
+        is_split_[i] = weighted < kSplitArea * area_of(node.bounds) * indices;
+    }
 }
 
 /// Descendants down to `tight_depth` whose boxes' areas sum up to no more than `tight_area` of the node's.
@@ -98,7 +125,10 @@ void NodeVisibility::make_lens(const FrameInput& input, const Frustum& frustum) 
 bool NodeVisibility::is_testable(const Aabb& box) const {
     const glm::vec3 half = 0.5f * (box.max - box.min);
     const glm::vec3 from_eye = 0.5f * (box.max + box.min) - lens_.eye;
-    const float margin = kNearMargin * (glm::length(from_eye) + glm::length(half));
+    // The differences above are rounded in units of the positions.
+    const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max)) + glm::abs(lens_.eye);
+    const float margin =
+        kNearMargin * (glm::length(from_eye) + glm::length(half)) + kRounding * (reach.x + reach.y + reach.z);
     const glm::vec3 beside = glm::abs(from_eye) - half;
     const bool holds_eye = std::max({beside.x, beside.y, beside.z}) <= margin;
     const float nearest = glm::dot(lens_.near_normal, from_eye) -
@@ -138,6 +168,7 @@ NodeVisibility::Parts NodeVisibility::add_node(std::uint32_t index, bool testabl
         static_cast<std::uint16_t>(std::min({node.range_count, node.piece_end - node.first_piece, 0xffffu}));
     candidate.testable = testable;
     candidates_.push_back(candidate);
+    leaf_of_candidate_.push_back(NodeId{index});
     const bool hidden = belief == Belief::Hidden && testable;
     return {true, hidden, hidden ? scheduler_.p_hidden(index) : 0.0};
 }
@@ -153,31 +184,62 @@ NodeVisibility::Parts NodeVisibility::visit(std::uint32_t index, PlaneMask mask,
     const bool leaf = node.end == index + 1;
     const bool whole = leaf || (testable && (belief == Belief::Hidden ||
                                              (belief == Belief::Unknown && render_ns(index) <= grain_ns_)));
-    return whole ? add_node(index, testable, belief) : visit_parts(index, mask, belief);
-}
-
-NodeVisibility::Parts NodeVisibility::visit_parts(std::uint32_t index, PlaneMask mask, Belief belief) {
-    const OctreeNode& node = nodes_[index];
-    const std::size_t first_candidate = candidates_.size();
     // Parts of what was hidden until now are hidden, most of them.
     const bool was_hidden = belief == Belief::Hidden || scheduler_.turned_visible(index);
-    const Belief otherwise = was_hidden ? Belief::Hidden : Belief::Unknown;
+    const Belief otherwise_parts = was_hidden ? Belief::Hidden : Belief::Unknown;
+    if (leaf && is_split_[index] && (!testable || belief == Belief::Visible))
+        return visit_pieces(index, mask, otherwise_parts);
+    return whole ? add_node(index, testable, belief) : visit_parts(index, mask, otherwise_parts);
+}
+
+NodeVisibility::Parts NodeVisibility::add_piece(std::uint32_t piece, Belief otherwise) {
+    const OctreePiece& part = pieces_[piece];
+    const auto item = static_cast<std::uint32_t>(nodes_.size()) + piece;
+    const Belief belief = scheduler_.visit(item, otherwise);
+    OcclusionCandidate candidate = candidate_of(item, part.bounds);
+    const double index_ns = std::max(costs_.index_ns, options_.shown_index_ns);
+    candidate.render_ns = static_cast<float>(index_ns * part.index_count);
+    candidate.testable = is_testable(part.bounds);
+    candidates_.push_back(candidate);
+    const bool hidden = belief == Belief::Hidden && candidate.testable;
+    return {true, hidden, hidden ? scheduler_.p_hidden(item) : 0.0};
+}
+
+NodeVisibility::Parts NodeVisibility::visit_pieces(std::uint32_t index, PlaneMask mask, Belief otherwise) {
+    const OctreeNode& node = nodes_[index];
+    const std::size_t first_candidate = candidates_.size();
     Parts all;
-    for (std::uint32_t child = index + 1; child < node.end; child = nodes_[child].end) {
-        const Parts parts = visit(child, mask, otherwise);
-        if (!parts.any) continue;
-        all.any = true;
-        all.all_hidden = all.all_hidden && parts.all_hidden;
-        all.p_hidden = std::min(all.p_hidden, parts.p_hidden);
+    for (std::uint32_t p = node.first_piece; p < node.piece_end; ++p) {
+        PlaneMask piece_mask = mask;
+        if (classify(*frustum_, pieces_[p].bounds, piece_mask) == Containment::Outside) continue;
+        all.add(add_piece(p, otherwise));
+        leaf_of_candidate_.push_back(NodeId{index});
     }
-    const bool one = all.any && all.all_hidden && candidates_.size() > first_candidate + 1;
-    if (!one || !is_testable(node.bounds) || !scheduler_.merge(index, all.p_hidden)) return all;
+    merge(index, first_candidate, all);
+    return all;
+}
+
+/// One candidate in place of many, if all parts of the node are hidden.
+void NodeVisibility::merge(std::uint32_t index, std::size_t first_candidate, Parts& parts) {
+    const bool one = parts.any && parts.all_hidden && candidates_.size() > first_candidate + 1;
+    if (!one || !is_testable(nodes_[index].bounds) || !scheduler_.merge(index, parts.p_hidden)) return;
     candidates_.resize(first_candidate);
-    return add_node(index, true, Belief::Hidden);
+    leaf_of_candidate_.resize(first_candidate);
+    parts = add_node(index, true, Belief::Hidden);
+}
+
+NodeVisibility::Parts NodeVisibility::visit_parts(std::uint32_t index, PlaneMask mask, Belief otherwise) {
+    const OctreeNode& node = nodes_[index];
+    const std::size_t first_candidate = candidates_.size();
+    Parts all;
+    for (std::uint32_t child = index + 1; child < node.end; child = nodes_[child].end)
+        all.add(visit(child, mask, otherwise));
+    merge(index, first_candidate, all);
+    return all;
 }
 
 void NodeVisibility::add_objects(std::span<const Aabb> boxes) {
-    const auto first = static_cast<std::uint32_t>(nodes_.size());
+    const std::uint32_t first = first_object_item();
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         PlaneMask mask = frustum_->mask;
         if (classify(*frustum_, boxes[i], mask) == Containment::Outside) continue;
@@ -198,8 +260,9 @@ void NodeVisibility::decide(const FrameInput& input, const Frustum& frustum, con
     costs_ = costs;
     nodes_visited_ = 0;
     candidates_.clear();
+    leaf_of_candidate_.clear();
     make_lens(input, frustum);
-    scheduler_.resize(nodes_.size() + input.object_boxes.size());
+    scheduler_.resize(first_object_item() + input.object_boxes.size());
     scheduler_.begin_frame(frame_ns, lens_.screen_pixels);
     if (!nodes_.empty()) visit(0, frustum.mask, Belief::Unknown);
     add_objects(input.object_boxes);
@@ -213,7 +276,9 @@ void NodeVisibility::decide(const FrameInput& input, const Frustum& frustum, con
 
 void NodeVisibility::append_boxes(std::uint32_t item, std::span<const Aabb> object_boxes,
                                   FramePlan& plan) const {
-    if (item >= nodes_.size()) return plan.query_boxes.push_back(object_boxes[item - nodes_.size()]);
+    if (item >= first_object_item())
+        return plan.query_boxes.push_back(object_boxes[item - first_object_item()]);
+    if (!is_node(item)) return plan.query_boxes.push_back(pieces_[item - nodes_.size()].bounds);
     for (std::uint32_t b = first_box_[item]; b < first_box_[item + 1]; ++b)
         plan.query_boxes.push_back(octree_.node(tight_nodes_[b]).bounds);
 }
@@ -231,17 +296,20 @@ void NodeVisibility::write_queries(std::span<const Aabb> object_boxes, FramePlan
 void NodeVisibility::write_nodes() {
     alternatives_.clear();
     alternative_candidates_.clear();
-    for (std::uint32_t c = 0; c < candidates_.size() && candidates_[c].item < nodes_.size(); ++c) {
+    for (std::uint32_t c = 0; c < leaf_of_candidate_.size(); ++c) {
         const OcclusionDecision& decision = decided_.decisions[c];
-        const NodeId node{candidates_[c].item};
+        const NodeId node = leaf_of_candidate_[c];
+        const std::uint32_t item = candidates_[c].item;
+        const std::uint32_t piece =
+            is_node(item) ? NodeAlternative::kWhole : item - static_cast<std::uint32_t>(nodes_.size());
         if (decision.action == OcclusionAction::Skip) {
-            alternatives_.push_back({node, 0.0, 0.0});
+            alternatives_.push_back({node, piece, 0.0, 0.0});
         } else if (decision.action == OcclusionAction::QueryFirst) {
             const bool hardware = decided_.queries[decision.query].way == QueryWay::HardwareQuery;
             const AnswerCosts& answer = hardware ? options_.costs.hardware : options_.costs.box_pass;
-            const double p = scheduler_.p_hidden(candidates_[c].item);
+            const double p = scheduler_.p_hidden(item);
             alternatives_.push_back(
-                {node, (1.0 - p) * costs_.index_ns, answer.draw_ns + (1.0 - p) * costs_.draw_ns});
+                {node, piece, (1.0 - p) * costs_.index_ns, answer.draw_ns + (1.0 - p) * costs_.draw_ns});
         } else {
             continue;
         }
@@ -250,16 +318,14 @@ void NodeVisibility::write_nodes() {
 }
 
 void NodeVisibility::write_objects(FramePlan& plan) const {
-    for (std::size_t c = candidates_.size(); c-- > 0 && candidates_[c].item >= nodes_.size();) {
-        const ObjectId object{candidates_[c].item - static_cast<std::uint32_t>(nodes_.size())};
+    for (std::size_t c = leaf_of_candidate_.size(); c < candidates_.size(); ++c) {
+        const ObjectId object{candidates_[c].item - first_object_item()};
         const OcclusionDecision& decision = decided_.decisions[c];
         if (decision.action == OcclusionAction::QueryFirst)
             plan.conditional_objects.push_back({object, decision.query});
         else if (decision.action != OcclusionAction::Skip)
             plan.objects.push_back(object);
     }
-    std::ranges::reverse(plan.objects);
-    std::ranges::reverse(plan.conditional_objects);
 }
 
 void NodeVisibility::append_conditional(std::span<const AlternativeRange> left, FramePlan& plan) const {

@@ -17,6 +17,8 @@ namespace {
 constexpr double kReplicaVisitNs = 20.0;
 constexpr double kClusterTestNs = 3.0;
 
+constexpr std::uint32_t kWhole = NodeAlternative::kWhole;
+
 /// The ranges of what is left of `clusters`, the first of which begins at index `first`: a gap is bridged
 /// where that costs no more than a draw. `add(first, count)` is called for each; their cost, ns.
 template <class Add>
@@ -68,7 +70,9 @@ class DrawListWalk {
     void visit(std::uint32_t index, PlaneMask mask) {
         ++list_.nodes_visited;
         const OctreeNode& node = nodes_[index];
-        if (next_alternative_node() == index) return offer(index);
+        while (next_alternative_node() < index) ++next_alternative_;
+        if (next_alternative_node() == index && alternatives_[next_alternative_].piece == kWhole)
+            return offer_node(index);
         if (classify(frustum_, node.bounds, mask) == Containment::Outside) return;
         if (mask == 0 && next_alternative_node() >= node.end) return show_all(index);
         const bool leaf = node.end == index + 1;
@@ -78,6 +82,11 @@ class DrawListWalk {
         if (node.first_piece < piece_end) list_.nodes.push_back(NodeId{index});
         for (std::uint32_t p = node.first_piece; p < piece_end; ++p) {
             if (!leaf) solver_.told_until_[index_of(pieces_[p].batch)] = end_of(pieces_[p]);
+            if (next_alternative_node() == index && alternatives_[next_alternative_].piece == p) {
+                offer({pieces_[p].batch, pieces_[p].first_index, pieces_[p].index_count});
+                ++next_alternative_;
+                continue;
+            }
             PlaneMask piece_mask = mask;
             // A node of one batch has its piece's box.
             if (node.range_count == 1 ||
@@ -101,7 +110,7 @@ class DrawListWalk {
                 if (entry.is_replica() && entry.end < replicas_.size())
                     draw_replica(replicas_[entry.end]);
                 else if (entry.is_replica())
-                    take_alternative(solver_.offered_[entry.end - replicas_.size()]);
+                    list_.alternatives.push_back(solver_.offered_[entry.end - replicas_.size()]);
                 else
                     list_.ranges.push_back({BatchId{b}, entry.first, entry.end - entry.first});
                 place = entry.previous;
@@ -172,26 +181,26 @@ class DrawListWalk {
                    : std::numeric_limits<std::uint32_t>::max();
     }
 
-    void offer(std::uint32_t index) {
-        const NodeAlternative& alternative = alternatives_[next_alternative_];
+    void offer_node(std::uint32_t index) {
         const std::uint32_t first = nodes_[index].first_range;
         for (std::uint32_t r = first; r < first + nodes_[index].range_count; ++r) {
             const DrawRange& range = ranges_[r];
             // A piece of an inner node above may hold all that the batch has here.
-            if (range.first_index < solver_.told_until_[index_of(range.batch)]) continue;
-            RangeRoute& route = solver_.routes_[index_of(range.batch)];
-            const RangeRoute::ReplicaEntry entry = route.enter_replica(solver_.log_);
-            route.show(range.first_index, range.index_count, costs_, solver_.log_);
-            const auto number = static_cast<std::uint32_t>(replicas_.size() + solver_.offered_.size());
-            solver_.offered_.push_back({r, next_alternative_});
-            route.leave_replica(entry, number, alternative.draw_ns + alternative.index_ns * range.index_count,
-                                solver_.log_);
+            if (range.first_index >= solver_.told_until_[index_of(range.batch)]) offer(range);
         }
         ++next_alternative_;
     }
 
-    void take_alternative(const DrawListSolver::OfferedRange& offered) {
-        list_.alternatives.push_back({ranges_[offered.range], offered.alternative});
+    /// `range` is of the next alternative.
+    void offer(const DrawRange& range) {
+        const NodeAlternative& alternative = alternatives_[next_alternative_];
+        RangeRoute& route = solver_.routes_[index_of(range.batch)];
+        const RangeRoute::ReplicaEntry entry = route.enter_replica(solver_.log_);
+        route.show(range.first_index, range.index_count, costs_, solver_.log_);
+        const auto number = static_cast<std::uint32_t>(replicas_.size() + solver_.offered_.size());
+        solver_.offered_.push_back({range, next_alternative_});
+        route.leave_replica(entry, number, alternative.draw_ns + alternative.index_ns * range.index_count,
+                            solver_.log_);
     }
 
     void enter(std::uint32_t replica) {

@@ -88,6 +88,18 @@ class MatrixOracle {
         const double s = costs_.index_ns * count;
         return {{{costs_.draw_ns + s, costs_.draw_ns + s}, {s, s}}};
     }
+    [[nodiscard]] const NodeAlternative* alternative_of(NodeId node, std::uint32_t piece) const {
+        const auto found = std::ranges::find_if(alternatives_, [&](const NodeAlternative& alternative) {
+            return alternative.node == node && alternative.piece == piece;
+        });
+        return found == alternatives_.end() ? nullptr : &*found;
+    }
+    [[nodiscard]] Matrix offered(const NodeAlternative& alternative, std::uint32_t count) const {
+        Matrix c = shown(count);
+        const double r = alternative.draw_ns + alternative.index_ns * count;
+        for (std::size_t i = 0; i < 2; ++i) c[i][0] = std::min(c[i][0], r);
+        return c;
+    }
     [[nodiscard]] Matrix of_clusters(std::uint32_t first, std::uint32_t count) const {
         Matrix c = hidden(0);
         for (const NormalCluster& cluster : octree_.clusters().subspan(first, count))
@@ -101,21 +113,20 @@ class MatrixOracle {
         const auto range = std::ranges::find(ranges, batch_, &DrawRange::batch);
         if (range == ranges.end()) return hidden(0);
         if (is_outside(node.bounds)) return hidden(range->index_count);
-        const auto alternative = std::ranges::find(alternatives_, NodeId{id}, &NodeAlternative::node);
-        if (alternative != alternatives_.end()) {
-            const double r = alternative->draw_ns + alternative->index_ns * range->index_count;
-            Matrix c = shown(range->index_count);
-            for (std::size_t i = 0; i < 2; ++i) c[i][0] = std::min(c[i][0], r);
-            return c;
-        }
+        if (const NodeAlternative* whole = alternative_of(NodeId{id}, NodeAlternative::kWhole))
+            return offered(*whole, range->index_count);
         const bool leaf = octree_.is_leaf(NodeId{id});
         const std::uint32_t piece_end = leaf ? node.piece_end : octree_.nodes()[id + 1].first_piece;
         const auto pieces = octree_.pieces().subspan(node.first_piece, piece_end - node.first_piece);
         const auto piece = std::ranges::find(pieces, range->first_index, &OctreePiece::first_index);
         Matrix c = hidden(0);
         if (piece != pieces.end() && piece->batch == batch_ && piece->index_count == range->index_count) {
-            c = is_outside(piece->bounds) ? hidden(piece->index_count)
-                                          : of_clusters(piece->first_cluster, piece->cluster_count);
+            const auto number = static_cast<std::uint32_t>(&*piece - octree_.pieces().data());
+            if (const NodeAlternative* of_piece = alternative_of(NodeId{id}, number))
+                c = offered(*of_piece, piece->index_count);
+            else
+                c = is_outside(piece->bounds) ? hidden(piece->index_count)
+                                              : of_clusters(piece->first_cluster, piece->cluster_count);
         } else {
             for (std::uint32_t child = id + 1; child < node.end; child = octree_.nodes()[child].end)
                 c = product(c, of_node(child));
@@ -136,7 +147,7 @@ class MatrixOracle {
     std::span<const NodeAlternative> alternatives_;
 };
 
-/// Nodes in view, none within another, each with random prices.
+/// Nodes and pieces of leaves in view, none within another, each with random prices.
 std::vector<NodeAlternative> random_alternatives(const RhOctree& octree, const Frustum& frustum,
                                                  const DrawCosts& costs, Uniform& uniform) {
     std::vector<NodeAlternative> alternatives;
@@ -145,13 +156,21 @@ std::vector<NodeAlternative> random_alternatives(const RhOctree& octree, const F
         PlaneMask mask = frustum.mask;
         if (classify(frustum, nodes[i].bounds, mask) == Containment::Outside) {
             i = nodes[i].end;
-        } else if (uniform(0, 1) < 0.15) {
-            alternatives.push_back(
-                {NodeId{i}, uniform(0, 1) * costs.index_ns, uniform(0, 1.5) * costs.draw_ns});
-            i = nodes[i].end;
-        } else {
-            ++i;
+            continue;
         }
+        const auto offer = [&](std::uint32_t piece) {
+            const double index_ns = uniform(0, 1) * costs.index_ns;
+            alternatives.push_back({NodeId{i}, piece, index_ns, uniform(0, 1.5) * costs.draw_ns});
+        };
+        if (uniform(0, 1) < 0.15) {
+            offer(NodeAlternative::kWhole);
+            i = nodes[i].end;
+            continue;
+        }
+        if (octree.is_leaf(NodeId{i}))
+            for (std::uint32_t p = nodes[i].first_piece; p < nodes[i].piece_end; ++p)
+                if (uniform(0, 1) < 0.3) offer(p);
+        ++i;
     }
     return alternatives;
 }
@@ -212,7 +231,8 @@ TEST_P(CheapestDrawList, leaves_nodes_to_their_alternatives_exactly_where_that_i
         expected += costs.call_ns * static_cast<double>(drawn.size());
         std::size_t ranges_offered = 0;
         for (const NodeAlternative& alternative : alternatives)
-            ranges_offered += octree.ranges(alternative.node).size();
+            ranges_offered +=
+                alternative.piece != NodeAlternative::kWhole ? 1 : octree.ranges(alternative.node).size();
         for (const AlternativeRange& range : list.alternatives) {
             const NodeAlternative& alternative = alternatives[range.alternative];
             const auto ranges = octree.ranges(alternative.node);

@@ -28,12 +28,13 @@ struct OcclusionOptions {
     std::span<const std::uint32_t> object_indices{};
 };
 
-/// The nodes of the octree are the scheduler's items, the dynamic objects follow them.
+/// The nodes of the octree are the scheduler's items, its pieces and the dynamic objects follow them.
 ///
 /// A node believed hidden is asked about as a whole, with the boxes of its descendants where these are tight;
-/// one believed visible is descended into, down to its leaves. What is new is asked about in parts that are
-/// worth some queries each. A node whose parts are all hidden is asked about as one again. What an inner node
-/// holds of batches too small to be divided is drawn with it and never asked about.
+/// one believed visible is descended into, down to its leaves, and to their pieces where these are much
+/// smaller than their leaf (a wall that crosses it makes a leaf's box large). What is new is asked about in
+/// parts that are worth some queries each. A node whose parts are all hidden is asked about as one again.
+/// What an inner node holds of batches too small to be divided is drawn with it and never asked about.
 /// Sources: Mattausch, Bittner & Wimmer 2008 (CHC++: tight bounds, pulling visibility up and down).
 class NodeVisibility {
   public:
@@ -60,6 +61,8 @@ class NodeVisibility {
         bool any = false;
         bool all_hidden = true;
         double p_hidden = 1.0;  ///< the least
+
+        void add(const Parts& part);
     };
 
     /// How boxes look from the eye.
@@ -78,22 +81,32 @@ class NodeVisibility {
 
     Parts visit(std::uint32_t index, PlaneMask mask, Belief otherwise);
     Parts visit_parts(std::uint32_t index, PlaneMask mask, Belief belief);
+    Parts visit_pieces(std::uint32_t index, PlaneMask mask, Belief otherwise);
+    void merge(std::uint32_t index, std::size_t first_candidate, Parts& parts);
     Parts add_node(std::uint32_t index, bool testable, Belief belief);
+    Parts add_piece(std::uint32_t piece, Belief otherwise);
     void add_objects(std::span<const Aabb> boxes);
     [[nodiscard]] double render_ns(std::uint32_t index) const;
+    [[nodiscard]] bool is_node(std::uint32_t item) const { return item < nodes_.size(); }
+    [[nodiscard]] std::uint32_t first_object_item() const {
+        return static_cast<std::uint32_t>(nodes_.size() + pieces_.size());
+    }
     void append_boxes(std::uint32_t item, std::span<const Aabb> object_boxes, FramePlan& plan) const;
     void write_queries(std::span<const Aabb> object_boxes, FramePlan& plan) const;
     void write_nodes();
     void write_objects(FramePlan& plan) const;
     void find_tight_boxes();
+    void find_split_leaves();
 
     const RhOctree& octree_;
     std::span<const OctreeNode> nodes_;
+    std::span<const OctreePiece> pieces_;
     OcclusionOptions options_;
     OcclusionScheduler scheduler_;
     std::vector<std::uint32_t> indices_before_;  ///< by piece: in the pieces before it
     std::vector<std::uint32_t> first_box_;       ///< by node, into `tight_nodes_`; one more at the end
     std::vector<NodeId> tight_nodes_;            ///< whose boxes a node is asked about with
+    std::vector<bool> is_split_;                 ///< by node: a leaf that is asked about in pieces
 
     // Of the frame:
     const Frustum* frustum_ = nullptr;
@@ -104,6 +117,7 @@ class NodeVisibility {
     OcclusionDecisions decided_;
     std::vector<NodeAlternative> alternatives_;
     std::vector<std::uint32_t> alternative_candidates_;  ///< by alternative
+    std::vector<NodeId> leaf_of_candidate_;  ///< by candidate that is no object: its node, or its leaf
     std::uint64_t nodes_visited_ = 0;
 };
 

@@ -18,15 +18,18 @@
 
 namespace rhview {
 
-/// A node that may be shown in another way than by the draw list, as by draws that hang on a query: each of
-/// its batches then takes one range, for `draw_ns + index_ns·(its indices)`.
+/// A node, or a piece of a leaf, that may be shown in another way than by the draw list, as by draws that
+/// hang on a query: each of its batches then takes one range, for `draw_ns + index_ns·(its indices)`.
 struct NodeAlternative {
+    static constexpr std::uint32_t kWhole = 0xffffffffu;
+
     NodeId node{};
+    std::uint32_t piece = kWhole;  ///< into `RhOctree::pieces`: of this leaf
     double index_ns = 0.0;
     double draw_ns = 0.0;
 };
 
-/// A batch's range of a node that the draw list leaves to the node's alternative.
+/// A batch's range of a node or piece that the draw list leaves to the node's alternative.
 struct AlternativeRange {
     DrawRange range;
     std::uint32_t alternative = 0;  ///< into those given
@@ -56,10 +59,10 @@ struct DrawList {
 class DrawListSolver {
   public:
     ///
-    /// `alternatives`: in the order of their nodes, none within another's; not outside the frustum. Such a
-    /// node is not entered: per batch, it is one range of the draw list or one of its alternative, whichever
-    /// makes the whole cheaper (a gap that is bridged anyway may cover it). What a piece of a node above
-    /// holds is shown with that.
+    /// `alternatives`: in the order of their nodes and pieces, none within another's; not outside the
+    /// frustum. Such a node is not entered: per batch, it is one range of the draw list or one of its
+    /// alternative, whichever makes the whole cheaper (a gap that is bridged anyway may cover it). What a
+    /// piece of a node above holds is shown with that.
     void solve(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
                const DrawCosts& costs, DrawList& list, std::span<const NodeAlternative> alternatives = {});
 
@@ -69,10 +72,6 @@ class DrawListSolver {
                      const DrawCosts& costs, DrawList& list, std::span<double> saving_ns);
 
   private:
-    struct OfferedRange {
-        std::uint32_t range = 0;  ///< of the octree
-        std::uint32_t alternative = 0;
-    };
     struct OpenReplica {
         RangeRoute::ReplicaEntry entry;
         std::uint32_t replica = 0;
@@ -85,7 +84,7 @@ class DrawListSolver {
     std::vector<RangeRoute> routes_;         ///< by batch
     std::vector<std::uint32_t> told_until_;  ///< by batch: where the last piece of an inner node ends
     RangeLog log_;
-    std::vector<OfferedRange> offered_;       ///< of the alternatives met
+    std::vector<AlternativeRange> offered_;   ///< of the alternatives met
     std::vector<OpenReplica> open_replicas_;  ///< a stack: replicas are nested or apart
 
     friend class DrawListWalk;
