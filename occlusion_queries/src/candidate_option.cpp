@@ -47,27 +47,26 @@ void OptionPricer::rank_beliefs() {
     }
 }
 
-CandidateOption OptionPricer::option(const OcclusionCandidate& candidate, const ItemHistory& item) const {
-    CandidateOption option;
+void OptionPricer::price(const OcclusionCandidate& candidate, const ItemHistory& item,
+                         CandidateOption& option) const {
+    option = {};
     option.render_ns = usable_render_ns(candidate.render_ns);
-    if (!candidate.testable || option.render_ns == 0.0f) return option;
+    if (!candidate.testable || option.render_ns == 0.0f) return;
     option.alone = candidate.counts_samples || item.ask_alone;
     if (item.belief == Belief::Visible) {
         set_visible(option, candidate, item);
     } else {
         set_doubtful(option, candidate, item);
     }
-    return option;
 }
 
-CandidateOption OptionPricer::occluder(const OcclusionCandidate& candidate) const {
-    CandidateOption option;
+void OptionPricer::price_occluder(const OcclusionCandidate& candidate, CandidateOption& option) const {
+    option = {};
     option.render_ns = usable_render_ns(candidate.render_ns);
     option.alone = true;
     const auto frames = static_cast<float>(std::max(settings_.visible_interval, 1u));
     const float p = p_by_rank_[rank_of_[kUnknown]];
     set_test(option, candidate, p * gain_while_hidden(candidate, option.render_ns) * frames);
-    return option;
 }
 
 void OptionPricer::set_doubtful(CandidateOption& option, const OcclusionCandidate& candidate,

@@ -40,9 +40,9 @@ class OptionPricer {
 
     OptionPricer(const OcclusionSettings& settings, const QueryCosts& costs, const ItemHistories& histories);
 
-    [[nodiscard]] CandidateOption option(const OcclusionCandidate& candidate, const ItemHistory& item) const;
+    void price(const OcclusionCandidate& candidate, const ItemHistory& item, CandidateOption& option) const;
     /// What is left of a `First` that is drawn at once instead, to be known by the next frame.
-    [[nodiscard]] CandidateOption occluder(const OcclusionCandidate& candidate) const;
+    void price_occluder(const OcclusionCandidate& candidate, CandidateOption& option) const;
     /// p(hidden) by rank.
     [[nodiscard]] std::span<const float> p_by_rank() const { return p_by_rank_; }
 

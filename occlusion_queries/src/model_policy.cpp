@@ -41,17 +41,20 @@ void ModelPolicy::decide(std::span<const OcclusionCandidate> candidates, const Q
     }
     ask_each(pricer, choose_ways(costs), writer, out);
     ask_groups(pricer, writer, out);
-    out.exploration_ns = exploration_.spend(candidates, options_, histories, out, writer);
+    if (explorable_) out.exploration_ns = exploration_.spend(candidates, options_, histories, out, writer);
 }
 
 void ModelPolicy::appraise(std::span<const OcclusionCandidate> candidates, const OptionPricer& pricer,
                            ItemHistories& histories) {
-    options_.clear();
+    options_.resize(candidates.size());
     covered_pixels_ = 0.0;
-    for (const OcclusionCandidate& candidate : candidates) {
+    explorable_ = false;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const OcclusionCandidate& candidate = candidates[i];
         if (!candidate.testable) histories.see(candidate.item);
         const ItemHistory& item = histories[candidate.item];
-        options_.push_back(pricer.option(candidate, item));
+        pricer.price(candidate, item, options_[i]);
+        explorable_ = explorable_ || options_[i].explorable;
         if (item.belief == Belief::Visible && candidate.pixels > 0.0f) covered_pixels_ += candidate.pixels;
     }
 }
@@ -75,7 +78,7 @@ bool ModelPolicy::put_occluders_in_front(std::span<const OcclusionCandidate> can
         const std::uint32_t nearest = occluders_.front().candidate;
         const float pixels = candidates[nearest].pixels;
         if (options_[nearest].ask == Ask::First) {
-            options_[nearest] = pricer.occluder(candidates[nearest]);
+            pricer.price_occluder(candidates[nearest], options_[nearest]);
             found = true;
         }
         if (pixels > 0.0f) covered_pixels_ += pixels;
@@ -127,7 +130,7 @@ void ModelPolicy::ask_each(const OptionPricer& pricer, Ways ways, QueryWriter& w
         if (option.ask == Ask::Test) {
             writer.ask({&i, 1}, choice.way, OcclusionAction::DrawAndQuery);
         } else if (choice.way == QueryWay::HardwareQuery && !option.alone) {
-            (skipped ? renewed_ : first_).add(i);
+            (skipped ? renewed_ : first_).add(i, option.rank);
         } else {
             writer.ask({&i, 1}, choice.way, skipped ? OcclusionAction::Skip : OcclusionAction::QueryFirst);
             if (!skipped)

@@ -55,6 +55,7 @@ class ModelPolicy {
     Multiqueries first_, renewed_;
     std::vector<CandidateOption> options_;
     std::vector<Occluder> occluders_;
+    bool explorable_ = false;
     double screen_pixels_ = 0.0;
     double covered_pixels_ = 0.0;  ///< by what is believed visible, and occluders
 };

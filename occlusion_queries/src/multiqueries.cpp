@@ -4,7 +4,6 @@
 #include "multiqueries.h"
 
 #include <algorithm>
-#include <array>
 
 namespace rhview {
 
@@ -14,11 +13,9 @@ void Multiqueries::reserve(std::size_t count) {
 }
 
 void Multiqueries::sort_by_rank(std::span<const CandidateOption> options) {
-    std::array<std::uint32_t, OptionPricer::kRanks + 1> starts{};
-    for (const std::uint32_t candidate : candidates_) ++starts[options[candidate].rank + 1];
-    for (std::size_t rank = 1; rank < starts.size(); ++rank) starts[rank] += starts[rank - 1];
+    for (std::size_t rank = 1; rank < starts_.size(); ++rank) starts_[rank] += starts_[rank - 1];
     sorted_.resize(candidates_.size());
-    for (const std::uint32_t candidate : candidates_) sorted_[starts[options[candidate].rank]++] = candidate;
+    for (const std::uint32_t candidate : candidates_) sorted_[starts_[options[candidate].rank]++] = candidate;
 }
 
 /// The longest start of what is left whose overhead per member falls with each member. Overhead is what a

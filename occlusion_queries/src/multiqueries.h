@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,12 +23,18 @@ class Multiqueries {
         bool draws_on_it = true;  ///< what its members draw hangs on it, and is drawn in vain if one is seen
     };
 
-    void clear() { candidates_.clear(); }
+    void clear() {
+        candidates_.clear();
+        starts_ = {};
+    }
     void reserve(std::size_t count);
-    void add(std::uint32_t candidate) { candidates_.push_back(candidate); }
+    void add(std::uint32_t candidate, std::uint8_t rank) {
+        candidates_.push_back(candidate);
+        ++starts_[rank + 1];
+    }
 
     /// Calls `emit(candidates, p)` per group: p that all are hidden, by what is known of each. Descending
-    /// p(hidden), ties as added. Linear.
+    /// p(hidden), ties as added. Linear. Once per `clear`.
     template <class Emit>
     void for_each_group(std::span<const CandidateOption> options, std::span<const float> p_by_rank,
                         const Price& price, Emit&& emit) {
@@ -46,6 +53,8 @@ class Multiqueries {
     static std::size_t group(std::span<const std::uint32_t> left, std::span<const CandidateOption> options,
                              std::span<const float> p_by_rank, const Price& price, double& p_all);
 
+    std::array<std::uint32_t, OptionPricer::kRanks + 1>
+        starts_{};  ///< counts of ranks, then places in sorted_
     std::vector<std::uint32_t> candidates_;
     std::vector<std::uint32_t> sorted_;
 };
