@@ -100,5 +100,69 @@ INSTANTIATE_TEST_SUITE_P(Views, RandomScenes,
                                          RandomCase{ClipDepth::NegativeOneToOne, 100.0, true, 0.0},
                                          RandomCase{ClipDepth::ReversedZeroToOne, 100.0, true, 1e5}));
 
+/// A view, and what one metre across it at one metre's distance is in pixels.
+struct ViewCase {
+    ClipDepth depth;
+    double far;
+};
+
+class ViewCases : public OcclusionTest, public testing::WithParamInterface<ViewCase> {};
+
+// The smallest that can be seen: a sample or none, in a box that has no more. All that is drawn hangs on its
+// own query.
+TEST_P(ViewCases, pieces_smaller_than_a_pixel_do_not_vanish) {
+    const auto [depth, far] = GetParam();
+    Uniform uniform(81);
+    QueryPlanner planner{.hardware = false, .stride = 2, .at_once = 0, .most_boxes = 1};
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        const double distance = seed % 2 ? 9.0 : 60.0;
+        const double pixel = distance / 110.0;
+        const CellScene cells = scatter_pieces(
+            seed, 15'000, 1.5 * pixel, static_cast<int>(seed % 4) - 1, 0, [&](Uniform& random) {
+                return glm::dvec3(random(-1, 1), random(-1, 1), random(-0.02, 0.02)) * distance;
+            });
+        const SceneBuffers buffers = SceneBuffers::upload(cells.scene).value();
+        const glm::dvec3 eye(uniform(-1, 1), uniform(-1, 1), distance);
+        const View view = view_at(eye, {uniform(-0.3, 0.3), uniform(-0.3, 0.3), -1}, depth, far);
+        EXPECT_EQ(missing(planner.plan(cells.cells), cells.cells, buffers, view), 0u) << seed;
+        std::size_t visible = 0;
+        for (const auto& [ticket, answer] : answers()) visible += answer.visible;
+        EXPECT_GT(visible, 1000u);
+        EXPECT_LT(visible, 15'000u) << "most cover no sample";
+    }
+}
+
+// The depths of a wall and of pieces in its plane differ by rounding alone.
+TEST_P(ViewCases, pieces_in_the_plane_of_what_hides_them_change_no_depth) {
+    const auto [depth, far] = GetParam();
+    Uniform uniform(82);
+    QueryPlanner planner{.hardware = false, .stride = 2, .at_once = 0, .most_boxes = 1, .walls = 40};
+    for (unsigned seed = 0; seed < 9; ++seed) {
+        const int axis = static_cast<int>(seed % 3);
+        // From afar a step of the depth buffer is metres.
+        const double scale = seed < 3 ? 1.0 : seed < 6 ? 50.0 : 1000.0;
+        CellScene cells = scatter_pieces(200 + seed, 15'000, 0.1 * scale, axis, 40, [&](Uniform& random) {
+            glm::dvec3 p = scale * random.point(20.0);
+            p[axis] = scale * (random(0, 1) < 0.8 ? -3.0 : -3.0 - 1e-6);
+            return p;
+        });
+        const SceneBuffers buffers = SceneBuffers::upload(cells.scene).value();
+        glm::dvec3 eye = scale * uniform.point(20.0), forward = uniform.point(1.0);
+        eye[axis] = scale * (-3.0 + uniform.log(0.3, 20.0));
+        forward[axis] = -uniform(0.2, 1.0);
+        const View view = view_at(eye, forward, depth, far);
+        FramePlan plan = planner.plan(cells.cells);
+        EXPECT_EQ(missing(plan, cells.cells, buffers, view), 0u) << seed;
+        std::size_t hidden = 0;
+        for (const auto& [ticket, answer] : answers()) hidden += !answer.visible;
+        EXPECT_GT(hidden, 100u);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Depths, ViewCases,
+                         testing::Values(ViewCase{ClipDepth::NegativeOneToOne, 1e5},
+                                         ViewCase{ClipDepth::ZeroToOne, 1e5},
+                                         ViewCase{ClipDepth::ReversedZeroToOne, kInfinity}));
+
 }  // namespace
 }  // namespace rhview::gl
