@@ -6,6 +6,7 @@
 
 #include <epoxy/gl.h>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 #include "occlusion_fixture.h"
@@ -124,6 +125,51 @@ TEST_P(ViewCases, pieces_in_the_plane_of_what_hides_them_change_no_depth) {
         for (const auto& [ticket, answer] : answers()) hidden += !answer.visible;
         EXPECT_GT(hidden, 100u);
     }
+}
+
+// Objects are transformed in their own space: other matrices, other rounding.
+TEST_P(ViewCases, conditional_objects_leave_the_depths_of_drawing_them_all) {
+    const auto [depth, far] = GetParam();
+    Uniform uniform(83);
+    std::size_t hidden = 0, asked = 0;
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        SceneBuilder builder;
+        const MaterialId material = builder.add_material({"", glm::vec3(0.8f), true, false});
+        const MeshId mesh = builder.add_mesh(material, triangle_piece()).value();
+        for (int i = 0; i < 600; ++i) {
+            glm::dmat4 place = glm::translate(glm::dmat4(1.0), uniform.point(12.0));
+            if (i % 4 != 0) place = glm::rotate(place, uniform(0, 6), uniform.point(1.0));
+            if (i % 4 == 3) place[1] += 3.0 * place[0];
+            const double size = i < 20 ? 10.0 : uniform.log(0.02, 3.0);
+            builder.add_dynamic(
+                mesh, glm::translate(glm::scale(place, glm::dvec3(size, size, i % 2 ? 0.01 : -size)),
+                                     glm::dvec3(0, 0, 5)));
+        }
+        const Scene scene = builder.finish("objects").value();
+        const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+        FramePlan whole, plan;
+        for (std::uint32_t i = 0; i < scene.dynamic_objects.size(); ++i) {
+            whole.objects.push_back(ObjectId{i});
+            if (i < 20) {
+                plan.objects.push_back(ObjectId{i});
+                continue;
+            }
+            const QueryWay way = i % 2 ? QueryWay::BoxPass : QueryWay::HardwareQuery;
+            plan.queries.push_back({i, static_cast<std::uint32_t>(plan.query_boxes.size()), 1, way, false});
+            plan.query_boxes.push_back(
+                transform_box(scene.dynamic_objects[i].scene_from_mesh, scene.meshes[0].bounds));
+            plan.conditional_objects.push_back(
+                {ObjectId{i}, static_cast<std::uint32_t>(plan.queries.size() - 1)});
+        }
+        const glm::dvec3 eye = uniform.point(16.0);
+        const View view = view_at(eye, uniform.point(4.0) - eye, depth, far);
+        const std::vector<float> reference = depths_of(whole, buffers, view);
+        EXPECT_EQ(count_missing_pixels(depths_of(plan, buffers, view), reference), 0u) << seed;
+        asked += plan.queries.size();
+        for (const auto& [ticket, answer] : answers()) hidden += !answer.visible;
+    }
+    EXPECT_GT(hidden, asked / 20);
+    EXPECT_LT(hidden, asked);
 }
 
 INSTANTIATE_TEST_SUITE_P(Depths, ViewCases,
