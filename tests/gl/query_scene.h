@@ -115,13 +115,14 @@ struct QueryPlanner {
     bool hardware = true, box_pass = true;
     std::size_t stride = 3, at_once = 1;
     std::size_t most_boxes = 3;
+    std::size_t walls = 0;  ///< cells from the first that are drawn at once
     bool counts_samples = false;
     std::uint64_t next_ticket = 1000;
 
     FramePlan plan(const std::vector<Cell>& cells) {
         FramePlan plan;
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            if (i % stride < at_once) {
+            if (i % stride < at_once || i < walls) {
                 plan.opaque.push_back(cells[i].range);
                 continue;
             }
@@ -141,6 +142,44 @@ struct QueryPlanner {
         return plan;
     }
 };
+
+/// `count` pieces around `origin`, each of two triangles that share part of an edge with their box,
+/// which is `size` wide (a random share of it) and flat across one axis, if `flat_axis` >= 0; at `place`. The
+/// first `walls` are 100 times as wide.
+template <class Place>
+CellScene scatter_pieces(unsigned seed, int count, double size, int flat_axis, int walls, Place place) {
+    Uniform uniform(seed);
+    SceneBuilder builder;
+    const MaterialId material = builder.add_material({"", glm::vec3(0.8f), true, false});
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+    for (int i = 0; i < count; ++i) {
+        glm::dvec3 low = place(uniform);
+        glm::dvec3 extent(size * uniform(0.1, 1.0), size * uniform(0.1, 1.0), size * uniform(0.1, 1.0));
+        if (flat_axis >= 0) extent[flat_axis] = 0.0;
+        if (i < walls) {
+            extent *= 100.0;
+            low -= 0.5 * extent;
+        }
+        positions.clear();
+        indices.clear();
+        const glm::dvec3 edge = glm::round(uniform.point(0.5) + 0.5);
+        for (std::uint32_t t = 0; t < 6; ++t) {
+            glm::dvec3 share = uniform.point(0.5) + 0.5;
+            for (int axis = 0; axis < 3; ++axis)
+                if (t % 3 < 2 && axis != i % 3) share[axis] = edge[axis];
+            if (t % 3 == 2) share[i % 3] = edge[i % 3];
+            positions.emplace_back(low + share * extent);
+            indices.push_back(t);
+        }
+        builder.add_static(material, {positions, {}, {}, indices});
+    }
+    CellScene result{builder.finish("pieces").value(), {}};
+    const SceneBatch& batch = result.scene.batches[0];
+    for (const SceneObject& object : batch.objects)
+        result.cells.push_back({{BatchId{0}, object.first_index, object.index_count}, object.bounds});
+    return result;
+}
 
 inline FramePlan everything(const std::vector<Cell>& cells) {
     FramePlan plan;
