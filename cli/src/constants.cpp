@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "profile_store.h"
+#include "rhview/gl/answer_costs.h"
 #include "rhview/gl/calibration.h"
 
 namespace rhview::cli {
@@ -74,6 +75,10 @@ Result<ChosenConstants> calibrate_quickly(const SceneAndPath& loaded, const gl::
         chosen.why_not = calibration.error().message;
         return chosen;
     }
+    const Result<gl::MeasuredAnswerCosts> answers =
+        gl::measure_answer_costs(*target, {.longest_s = kQuickAnswersS});
+    if (!answers) return answers.error();
+    calibration->profile.answer_costs = answers->costs;
     chosen.constants = {calibration->profile, "quick",
                         fmt::format("calibrated quickly with this scene in {:.1f} s (rhview calibrate "
                                     "measures better, and once)",

@@ -50,6 +50,9 @@ Result<ChosenConstants> choose_constants(const WantedConstants& wanted, const st
                                          const SceneAndPath& loaded, const gl::DeviceInfo& device, int width,
                                          int height);
 
+/// Of timing, where what asking costs is measured in passing.
+inline constexpr double kQuickAnswersS = 0.4;
+
 /// What asking about hidden things costs by these constants; absent where they do not say. With `--set`,
 /// `query` is a hardware query and `box` a box of the box pass, either with a draw for each conditional one;
 /// what is not set is never used.

@@ -13,6 +13,7 @@
 #include "output_file.h"
 #include "picture_size.h"
 #include "progress.h"
+#include "rhview/gl/answer_costs.h"
 #include "rhview/gl/context.h"
 #include "rhview/gl/item_buffer.h"
 #include "rhview/gl/timer.h"
@@ -80,8 +81,7 @@ struct Outputs {
 Result<std::optional<OcclusionOptions>> choose_occlusion(const WalkOptions& options,
                                                          const WantedConstants& wanted,
                                                          const std::optional<UserConstants>& constants,
-                                                         const gl::DeviceInfo& device, PictureSize size,
-                                                         std::string& why_not) {
+                                                         PictureSize size, std::string& why_not) {
     std::optional<OcclusionOptions> occlusion;
     if (options.occlusion == "off") return occlusion;
     if (!constants) {
@@ -94,8 +94,12 @@ Result<std::optional<OcclusionOptions>> choose_occlusion(const WalkOptions& opti
         return occlusion;
     }
     if (!costs) {
-        why_not = "todo";
-        return occlusion;
+        Result<gl::RenderTarget> target = gl::RenderTarget::create(size.width, size.height);
+        if (!target) return Error{"--size: " + target.error().message};
+        const Result<gl::MeasuredAnswerCosts> measured =
+            gl::measure_answer_costs(*target, {.longest_s = kQuickAnswersS});
+        if (!measured) return measured.error();
+        costs = measured->costs;
     }
     const double never = std::numeric_limits<double>::infinity();
     if (options.occlusion == "hardware") costs->box_pass = {.query_ns = never};
@@ -436,7 +440,7 @@ Result<int> run_walk(const WalkOptions& options) {
             object_indices.push_back(
                 static_cast<std::uint32_t>(loaded->scene.meshes[index_of(object.mesh)].indices.size()));
         Result<std::optional<OcclusionOptions>> occlusion =
-            choose_occlusion(options, *wanted, constants, context->device(), *size, told.why_no_occlusion);
+            choose_occlusion(options, *wanted, constants, *size, told.why_no_occlusion);
         if (!occlusion) return occlusion.error();
         method_options.occlusion = *occlusion;
         if (method_options.occlusion) method_options.occlusion->object_indices = object_indices;
