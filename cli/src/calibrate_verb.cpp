@@ -13,6 +13,7 @@
 #include "profile_store.h"
 #include "progress.h"
 #include "rhview/gl/calibration.h"
+#include "rhview/scenes/static_instances.h"
 #include "scene_source.h"
 #include "verbs.h"
 
@@ -149,6 +150,8 @@ struct Subjects {
         for (const std::string& name : names) {
             Result<LoadedScene> loaded = load_scene(name);
             if (!loaded) return loaded.error();
+            if (!loaded->baked)
+                if (Status status = settle_instances(loaded->scene, {}); !status) return status;
             scenes.push_back(std::make_unique<LoadedScene>(std::move(loaded).value()));
             Result<gl::SceneBuffers> uploaded = gl::SceneBuffers::upload(scenes.back()->scene);
             if (!uploaded) return uploaded.error();

@@ -7,6 +7,7 @@
 
 #include "constants.h"
 #include "frame_pictures.h"
+#include "instances.h"
 #include "method.h"
 #include "output_file.h"
 #include "picture_size.h"
@@ -35,7 +36,7 @@ Status check_options(const WalkOptions& options) {
         return Error{fmt::format("--mode {}: unknown; the only mode is exact", options.mode)};
     if (options.submission != "plain" && options.submission != "multi")
         return Error{fmt::format("--submission {}: unknown; write plain or multi", options.submission)};
-    return success();
+    return check_instances(options.instances);
 }
 
 /// Where the results go; opened before the work, so that an unwritable place is told at once.
@@ -78,9 +79,7 @@ class Walk {
           reference_(make_reference(loaded.scene)),
           bounds_(loaded.scene.bounds()),
           clip_depth_(device.clip_control ? ClipDepth::ReversedZeroToOne : ClipDepth::NegativeOneToOne) {
-        for (const DynamicObject& object : scene_.dynamic_objects)
-            object_boxes_.push_back(
-                transform_box(object.scene_from_mesh, scene_.meshes[index_of(object.mesh)].bounds));
+        object_boxes_ = scene_.object_boxes();
     }
 
     Status run(PictureSize size, WalkReport& report) {
@@ -169,7 +168,9 @@ class Walk {
         record.work = gl::work_of(counters);
         work_counter_->read(record.work);
         record.nodes_visited = plan_.nodes_visited;
-        record.visible_objects = plan_.objects.size();
+        for (const ObjectId id : plan_.objects)
+            ++(index_of(id) < scene_.dynamic_objects.size() ? record.visible_objects
+                                                            : record.visible_instances);
         if (constants_) record.predicted_ms = 1e-6 * constants_->profile.predict_ns(record.work);
         return record;
     }
@@ -255,7 +256,9 @@ WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const
                     scene.dynamic_objects.size(),
                     scene.dynamic_triangles(),
                     scene.materials.size(),
-                    scene.batches.size()};
+                    scene.batches.size(),
+                    scene.static_instances.size(),
+                    scene.instance_triangles()};
     report.device = {device.renderer, device.version, "wall"};
     report.build.ms = method.build_ms;
     if (method.octree != nullptr) {
@@ -264,6 +267,7 @@ WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const
         report.build.replicas = method.octree->replicas().size();
         report.build.replica_bytes = method.octree->replica_bytes();
     }
+    report.build.instancing = scene.instancing;
     report.build.index_bytes = scene.index_bytes();
     report.build.vertex_bytes = scene.vertex_bytes();
     report.method = options.method;
@@ -301,7 +305,7 @@ Result<int> run_walk(const WalkOptions& options) {
     Result<gl::Context> context = gl::Context::create_headless();
     if (!context) return context.error();
     progress.say("loading " + options.scene);
-    const Result<LoadedScene> loaded = load(options);
+    Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
     progress.say("choosing timing constants");
     const Result<ChosenConstants> chosen =
@@ -313,6 +317,10 @@ Result<int> run_walk(const WalkOptions& options) {
     }
     const std::optional<UserConstants>& constants = chosen->constants;
     progress.say("building");
+    const gl::WallTimer settle_timer;
+    if (Status status = settle_instances(*loaded, options.scene, options.instances, constants); !status)
+        return status.error();
+    const double settle_ms = settle_timer.elapsed_ms();
     MethodOptions method_options{options.leaf, options.replica_budget, {}};
     if (constants) method_options.costs = draw_costs(constants->profile, options.submission == "multi");
     Result<PreparedMethod> method = prepare_method(options.method, loaded->scene, method_options,
@@ -320,6 +328,7 @@ Result<int> run_walk(const WalkOptions& options) {
     if (!method) return method.error();
 
     WalkReport report = describe(options, *loaded, *method, context->device(), *size);
+    if (!loaded->baked) report.build.settle_ms = settle_ms;
     if (constants)
         report.profile = {constants->profile, constants->source, constants->told};
     else

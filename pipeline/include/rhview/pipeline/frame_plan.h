@@ -17,7 +17,7 @@ namespace rhview {
 struct FramePlan {
     /// Static triangles: one draw call each, by batch, so that state is set once per batch.
     std::vector<DrawRange> opaque;
-    /// Dynamic objects to draw whole, by id.
+    /// Dynamic objects and static instances to draw whole, by id.
     std::vector<ObjectId> objects;
     /// What the planner chose, by its own ids (`FramePlanner::bounds_of`): for pictures and statistics.
     std::vector<std::uint32_t> chosen;
