@@ -21,7 +21,7 @@ struct FrameCounters {
     std::uint64_t draw_calls = 0;        ///< N: calls issued; a multi-draw is one
     std::uint64_t sub_draws = 0;         ///< index ranges submitted
     std::uint64_t indices = 0;           ///< V: three per triangle
-    std::uint64_t material_changes = 0;  ///< times that state was set: per batch and per dynamic object
+    std::uint64_t material_changes = 0;  ///< times that state was set: per batch and per object
 };
 
 enum class Submission {

@@ -17,10 +17,9 @@ namespace rhview {
 
 /// What a frame is planned from; the caller owns it.
 struct FrameInput {
-    View culling_view;             ///< `validate` accepts it
-    glm::dvec3 scene_origin{0.0};  ///< world position of the zero of every box and vertex
-    std::span<const Aabb>
-        object_boxes{};  ///< of dynamic objects and instances, by `ObjectId`; contain what is drawn
+    View culling_view;                     ///< `validate` accepts it
+    glm::dvec3 scene_origin{0.0};          ///< world position of the zero of every box and vertex
+    std::span<const Aabb> object_boxes{};  ///< moving or instances, by `ObjectId`; contain what is drawn
 };
 
 /// One per view: it may remember earlier frames. Equal inputs in equal order give equal plans; after the
