@@ -15,7 +15,10 @@ namespace rhview {
 namespace {
 
 std::vector<RhoBytes> corpus() {
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "rhview_rho_corpus";
+    // A folder of the running test's own: two of them may run at once.
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / (std::string("rhview_rho_corpus_") + info->name());
     std::vector<RhoBytes> files;
     for (const std::filesystem::path& file : write_corpus(folder)) {
         const auto bytes = FileBytes::open(file).value();
