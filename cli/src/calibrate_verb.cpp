@@ -14,6 +14,7 @@
 #include "progress.h"
 #include "rhview/gl/answer_costs.h"
 #include "rhview/gl/calibration.h"
+#include "rhview/scenes/static_instances.h"
 #include "scene_source.h"
 #include "verbs.h"
 
@@ -162,6 +163,8 @@ struct Subjects {
         for (const std::string& name : names) {
             Result<LoadedScene> loaded = load_scene(name);
             if (!loaded) return loaded.error();
+            if (!loaded->baked)
+                if (Status status = settle_instances(loaded->scene, {}); !status) return status;
             scenes.push_back(std::make_unique<LoadedScene>(std::move(loaded).value()));
             Result<gl::SceneBuffers> uploaded = gl::SceneBuffers::upload(scenes.back()->scene);
             if (!uploaded) return uploaded.error();

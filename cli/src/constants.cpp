@@ -15,6 +15,7 @@
 #include "profile_store.h"
 #include "rhview/gl/answer_costs.h"
 #include "rhview/gl/calibration.h"
+#include "rhview/scenes/static_instances.h"
 
 namespace rhview::cli {
 namespace {
@@ -62,10 +63,17 @@ Result<ChosenConstants> calibrate_quickly(const SceneAndPath& loaded, const gl::
     if (!target) return Error{"--size: " + target.error().message};
     Result<gl::Executor> executor = gl::Executor::create();
     if (!executor) return executor.error();
-    Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(loaded.scene);
+    // Instances are not settled before prices are known: flattened by the default ones meanwhile.
+    std::optional<Scene> flattened;
+    if (!loaded.scene.static_instances.empty()) {
+        flattened.emplace(loaded.scene);
+        if (Status status = settle_instances(*flattened, {}); !status) return status.error();
+    }
+    const Scene& scene = flattened ? *flattened : loaded.scene;
+    Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(scene);
     if (!buffers) return buffers.error();
-    const gl::CalibrationSubject subject{&loaded.scene,         &*buffers,          {},
-                                         loaded.path.fov_y_deg, loaded.path.near_m, loaded.path.far_m};
+    const gl::CalibrationSubject subject{
+        &scene, &*buffers, {}, loaded.path.fov_y_deg, loaded.path.near_m, loaded.path.far_m};
     const ClipDepth clip_depth =
         device.clip_control ? ClipDepth::ReversedZeroToOne : ClipDepth::NegativeOneToOne;
     Result<gl::Calibration> calibration =

@@ -48,6 +48,18 @@ void add_octree_options(CLI::App& verb, std::optional<std::uint32_t>& leaf, doub
         ->capture_default_str();
 }
 
+void add_instance_options(CLI::App& verb, InstancesWanted& wanted) {
+    verb.add_option("--instances", wanted.policy,
+                    "Meshes that a file places repeatedly: auto (flattened where the model says that it "
+                    "pays), flatten, keep")
+        ->type_name("HOW")
+        ->capture_default_str();
+    verb.add_option("--instance-budget", wanted.budget_mib,
+                    "MiB that flattened instances may take with --instances auto; default: 1024")
+        ->type_name("MIB")
+        ->check(CLI::Range(0.0, 1e6));
+}
+
 void add_calibrate(CLI::App& app, CalibrateOptions& options) {
     CLI::App* calibrate =
         app.add_subcommand("calibrate", "Fit the timing constants of this machine, in 20 seconds at most");
@@ -96,6 +108,7 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->capture_default_str();
     walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
     add_octree_options(*walk, options.leaf, options.replica_budget);
+    add_instance_options(*walk, options.instances);
     walk->add_option("--submission", options.submission,
                      "plain: a call per range; multi: a multi-draw per batch")
         ->capture_default_str();
@@ -127,6 +140,7 @@ void add_bake(CLI::App& app, BakeOptions& options) {
         ->type_name("M")
         ->capture_default_str();
     add_octree_options(*bake, options.leaf, options.replica_budget);
+    add_instance_options(*bake, options.instances);
     bake->add_option(
             "--profile", options.profile,
             "Timing constants (rhview.profile/1) that leaves and replicas are chosen by; default: this "

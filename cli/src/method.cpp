@@ -37,7 +37,7 @@ OcclusionOptions papers(OcclusionOptions options) {
 OctreeOptions octree_options_of(std::string_view method, const Scene& scene, const MethodOptions& options) {
     OctreeOptions result;
     if (method == "rhview") {
-        result = choose_octree_options(options.costs, 3 * scene.static_triangles(), scene.batches.size());
+        result = choose_octree_options(options.costs, 3 * scene.batch_triangles(), scene.batches.size());
         result.replica_budget = options.replica_budget;
     } else {
         result.normal_order = false;

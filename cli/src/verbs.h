@@ -28,6 +28,12 @@ struct CalibrateOptions {
     std::optional<std::filesystem::path> csv;
 };
 
+/// What becomes of meshes that the scene places repeatedly.
+struct InstancesWanted {
+    std::string policy = "auto";
+    std::optional<double> budget_mib;  ///< of flattened placements; else the library's
+};
+
 struct WalkOptions {
     std::string scene;
     std::string method = "rhview";
@@ -43,6 +49,7 @@ struct WalkOptions {
     int repeats = 1;
     std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
     double replica_budget = 1.0;
+    InstancesWanted instances;
     bool check = false;
     int check_every = 1;
     bool visible_set = false;
@@ -59,6 +66,7 @@ struct BakeOptions {
     std::string method = "rhview";
     std::optional<std::uint32_t> leaf;
     double replica_budget = 1.0;
+    InstancesWanted instances;
     std::optional<std::filesystem::path> profile;
     std::string set;
     std::optional<std::filesystem::path> path;

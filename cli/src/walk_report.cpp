@@ -128,9 +128,26 @@ void add_occlusion(const WalkReport& report, Json& summary) {
     summary["lost_queries"] = report.has_occlusion() ? Json(report.lost_queries) : Json(nullptr);
 }
 
+Json instancing_json(const WalkReport& report) {
+    const InstancingReport& r = report.build.instancing;
+    return {{"flattened_meshes", r.flattened_meshes},
+            {"flattened_placements", r.flattened_placements},
+            {"flattened_bytes", r.flattened_bytes},
+            {"kept_meshes", r.kept_meshes},
+            {"kept_placements", r.kept_placements},
+            {"kept_bytes", r.kept_bytes},
+            {"all_flattened_bytes", r.all_flattened_bytes},
+            {"budget_bytes", r.budget_bytes},
+            {"all_kept_ns", r.all_kept_ns},
+            {"all_flattened_ns", r.all_flattened_ns},
+            {"chosen_ns", r.chosen_ns},
+            {"ms", or_null(report.build.settle_ms)}};
+}
+
 Json summary_json(const WalkReport& report) {
     const bool has_gpu = !report.frames.empty() && report.frames.front().gpu_ms.has_value();
     const bool has_objects = report.scene.dynamic_objects > 0;
+    const bool has_instances = report.scene.static_instances > 0;
     Json summary;
     summary["draw_calls"] = statistics(report, [](const FrameRecord& f) { return f.work.draw_calls; });
     summary["sub_draws"] = statistics(report, [](const FrameRecord& f) { return f.work.sub_draws; });
@@ -156,6 +173,9 @@ Json summary_json(const WalkReport& report) {
     summary["visible_objects"] =
         has_objects ? statistics(report, [](const FrameRecord& f) { return f.visible_objects; })
                     : Json(nullptr);
+    summary["visible_instances"] =
+        has_instances ? statistics(report, [](const FrameRecord& f) { return f.visible_instances; })
+                      : Json(nullptr);
     summary["lod_error_px"] = nullptr;
     summary["missing_pixels"] = missing_pixels_json(report);
     summary["plan_hash"] = fmt::format("{:016x}", report.plan_hash);
@@ -211,6 +231,19 @@ std::uint64_t WalkReport::missing_pixels() const {
     return total;
 }
 
+std::string instancing_text(const InstancingReport& report) {
+    if (report.flattened_meshes + report.kept_meshes == 0) return "";
+    constexpr double kMebibyte = 1024.0 * 1024.0;
+    const auto mebibytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / kMebibyte; };
+    return fmt::format(
+        "{} meshes flattened to {} objects of {:.1f} MiB, {} kept for {} of {:.1f} MiB; all flattened: "
+        "{:.1f} "
+        "MiB\n  by the model, ns a frame: {:.4g}; all kept {:.4g}, all flattened {:.4g}",
+        report.flattened_meshes, report.flattened_placements, mebibytes(report.flattened_bytes),
+        report.kept_meshes, report.kept_placements, mebibytes(report.kept_bytes),
+        mebibytes(report.all_flattened_bytes), report.chosen_ns, report.all_kept_ns, report.all_flattened_ns);
+}
+
 std::string to_json(const WalkReport& report) {
     Json json;
     json["schema"] = "rhview.walk/1";
@@ -219,6 +252,8 @@ std::string to_json(const WalkReport& report) {
                      {"static_triangles", report.scene.static_triangles},
                      {"dynamic_objects", report.scene.dynamic_objects},
                      {"dynamic_triangles", report.scene.dynamic_triangles},
+                     {"static_instances", report.scene.static_instances},
+                     {"instance_triangles", report.scene.instance_triangles},
                      {"materials", report.scene.materials}};
     json["device"] = {{"renderer", report.device.renderer},
                       {"version", report.device.version},
@@ -236,6 +271,7 @@ std::string to_json(const WalkReport& report) {
                      {"nodes", or_null(report.build.nodes)},
                      {"leaves", or_null(report.build.leaves)},
                      {"replicas", or_null(report.build.replicas)},
+                     {"instancing", instancing_json(report)},
                      {"replica_bytes", report.build.replica_bytes},
                      {"index_bytes", report.build.index_bytes},
                      {"vertex_bytes", report.build.vertex_bytes}};
@@ -285,6 +321,8 @@ std::string to_table(const WalkReport& report) {
         report.scene.materials, report.scene.materials == 1 ? "" : "s",
         report.scene.dynamic_objects > 0 ? fmt::format(", {} dynamic objects", report.scene.dynamic_objects)
                                          : "");
+    if (const std::string line = instancing_text(report.build.instancing); !line.empty())
+        table += "instances: " + line + "\n";
     if (report.build.nodes)
         table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, {} in {:.0f} ms\n",
                              *report.build.nodes, *report.build.leaves, report.leaf.value_or(0),
@@ -324,6 +362,8 @@ std::string to_table(const WalkReport& report) {
     row("nodes visited", 0, [](const FrameRecord& f) { return f.nodes_visited; });
     if (report.scene.dynamic_objects > 0)
         row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
+    if (report.scene.static_instances > 0)
+        row("instances", 1, [](const FrameRecord& f) { return f.visible_instances; });
     row("cull ms", 3, [](const FrameRecord& f) { return f.cull_ms; });
     row("frame ms", 2, [](const FrameRecord& f) { return f.frame_ms; });
     if (report.profile)
@@ -332,7 +372,7 @@ std::string to_table(const WalkReport& report) {
         row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
     table +=
         fmt::format("\n  everything: {} draw calls, {} indices; plan hash {:016x}\n",
-                    report.scene.batches + report.scene.dynamic_objects,
+                    report.scene.batches + report.scene.dynamic_objects + report.scene.static_instances,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
     table += timing_line(report);
     if (report.has_occlusion())

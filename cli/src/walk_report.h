@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rhview/scenes/scene.h"
 #include "rhview/timing_model/profile.h"
 
 namespace rhview::cli {
@@ -32,7 +33,8 @@ struct FrameRecord {
     int frame = 0;
     Work work;
     std::uint64_t nodes_visited = 0;
-    std::uint64_t visible_objects = 0;
+    std::uint64_t visible_objects = 0;    ///< dynamic ones
+    std::uint64_t visible_instances = 0;  ///< static ones
     double cull_ms = 0.0;
     double frame_ms = 0.0;
     std::optional<double> gpu_ms;
@@ -52,6 +54,8 @@ struct WalkReport {
         std::uint64_t dynamic_triangles = 0;
         std::uint64_t materials = 0;
         std::uint64_t batches = 0;
+        std::uint64_t static_instances = 0;
+        std::uint64_t instance_triangles = 0;
     } scene;
     struct {
         std::string renderer;
@@ -64,6 +68,8 @@ struct WalkReport {
         std::optional<std::uint64_t> nodes;
         std::optional<std::uint64_t> leaves;
         std::optional<std::uint64_t> replicas;
+        InstancingReport instancing;
+        std::optional<double> settle_ms;  ///< to choose and flatten instances; of a baked file, none
         std::uint64_t replica_bytes = 0;
         std::uint64_t index_bytes = 0;
         std::uint64_t vertex_bytes = 0;
@@ -95,6 +101,8 @@ struct WalkReport {
 
 std::string to_json(const WalkReport& report);
 std::string to_csv(const WalkReport& report);
+/// What became of instances, for people; empty where the scene places no mesh twice.
+std::string instancing_text(const InstancingReport& report);
 /// For people.
 std::string to_table(const WalkReport& report);
 

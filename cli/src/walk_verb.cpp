@@ -9,6 +9,7 @@
 
 #include "constants.h"
 #include "frame_pictures.h"
+#include "instances.h"
 #include "method.h"
 #include "output_file.h"
 #include "picture_size.h"
@@ -47,7 +48,7 @@ Status check_options(const WalkOptions& options) {
         return Error{fmt::format("--mode latent: of rhview with occlusion culling only; leave it out")};
     if (options.submission != "plain" && options.submission != "multi")
         return Error{fmt::format("--submission {}: unknown; write plain or multi", options.submission)};
-    return success();
+    return check_instances(options.instances);
 }
 
 /// Where the results go; opened before the work, so that an unwritable place is told at once.
@@ -130,9 +131,7 @@ class Walk {
           reference_(make_reference(loaded.scene)),
           bounds_(loaded.scene.bounds()),
           clip_depth_(device.clip_control ? ClipDepth::ReversedZeroToOne : ClipDepth::NegativeOneToOne) {
-        for (const DynamicObject& object : scene_.dynamic_objects)
-            object_boxes_.push_back(
-                transform_box(object.scene_from_mesh, scene_.meshes[index_of(object.mesh)].bounds));
+        object_boxes_ = scene_.object_boxes();
     }
 
     Status run(PictureSize size, WalkReport& report) {
@@ -238,13 +237,17 @@ class Walk {
         record.work = gl::work_of(counters);
         work_counter_->read(record.work);
         record.nodes_visited = plan_.nodes_visited;
-        record.visible_objects = plan_.objects.size();
+        for (const ObjectId id : plan_.objects) count_object(id, record);
         if (plan_.occlusion) count_occlusion(counters, record);
         if (constants_) {
             record.predicted_ms = 1e-6 * constants_->profile.predict_ns(without_queries(record.work));
             if (record.occlusion) *record.predicted_ms += record.occlusion->query_ms;
         }
         return record;
+    }
+
+    void count_object(ObjectId id, FrameRecord& record) const {
+        ++(index_of(id) < scene_.dynamic_objects.size() ? record.visible_objects : record.visible_instances);
     }
 
     /// What hung on queries enters the work as far as the device drew it.
@@ -264,6 +267,11 @@ class Walk {
         o.query_ms = 1e-6 * plan_.occlusion->query_ns;
         o.exploration_ms = 1e-6 * plan_.occlusion->exploration_ns;
         o.saved_ms = 1e-6 * plan_.occlusion->saved_ns;
+        for (const ConditionalObject& conditional : plan_.conditional_objects) {
+            const std::uint64_t ticket = plan_.queries[conditional.query].ticket;
+            const auto answer = std::ranges::find(answers_, ticket, &QueryAnswer::ticket);
+            if (answer == answers_.end() || answer->visible) count_object(conditional.object, record);
+        }
         record.work.queries = static_cast<double>(counters.queries);
         record.work.draw_calls += static_cast<double>(counters.conditional_draws);
         record.work.sub_draws += static_cast<double>(counters.conditional_sub_draws);
@@ -372,7 +380,9 @@ WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const
                     scene.dynamic_objects.size(),
                     scene.dynamic_triangles(),
                     scene.materials.size(),
-                    scene.batches.size()};
+                    scene.batches.size(),
+                    scene.static_instances.size(),
+                    scene.instance_triangles()};
     report.device = {device.renderer, device.version, "wall"};
     report.build.ms = method.build_ms;
     if (method.octree != nullptr) {
@@ -381,6 +391,7 @@ WalkReport describe(const WalkOptions& options, const LoadedScene& loaded, const
         report.build.replicas = method.octree->replicas().size();
         report.build.replica_bytes = method.octree->replica_bytes();
     }
+    report.build.instancing = scene.instancing;
     report.build.index_bytes = scene.index_bytes();
     report.build.vertex_bytes = scene.vertex_bytes();
     report.method = options.method;
@@ -419,7 +430,7 @@ Result<int> run_walk(const WalkOptions& options) {
     Result<gl::Context> context = gl::Context::create_headless();
     if (!context) return context.error();
     progress.say("loading " + options.scene);
-    const Result<LoadedScene> loaded = load(options);
+    Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
     progress.say("choosing timing constants");
     const Result<ChosenConstants> chosen =
@@ -431,14 +442,21 @@ Result<int> run_walk(const WalkOptions& options) {
     }
     const std::optional<UserConstants>& constants = chosen->constants;
     progress.say("building");
+    const gl::WallTimer settle_timer;
+    if (Status status = settle_instances(*loaded, options.scene, options.instances, constants); !status)
+        return status.error();
+    const double settle_ms = settle_timer.elapsed_ms();
     MethodOptions method_options{options.leaf, options.replica_budget, {}, {}};
     if (constants) method_options.costs = draw_costs(constants->profile, options.submission == "multi");
     WalkReport told;
     std::vector<std::uint32_t> object_indices;
     if (options.method == "rhview" || options.method == "rhview-seed") {
-        for (const DynamicObject& object : loaded->scene.dynamic_objects)
-            object_indices.push_back(
-                static_cast<std::uint32_t>(loaded->scene.meshes[index_of(object.mesh)].indices.size()));
+        const auto count = [&](const auto& placed) {
+            const SceneMesh& mesh = loaded->scene.meshes[index_of(placed.mesh)];
+            object_indices.push_back(static_cast<std::uint32_t>(mesh.indices.size()));
+        };
+        std::ranges::for_each(loaded->scene.dynamic_objects, count);
+        std::ranges::for_each(loaded->scene.static_instances, count);
         Result<std::optional<OcclusionOptions>> occlusion =
             choose_occlusion(options, *wanted, constants, *size, told.why_no_occlusion);
         if (!occlusion) return occlusion.error();
@@ -451,6 +469,7 @@ Result<int> run_walk(const WalkOptions& options) {
 
     WalkReport report = describe(options, *loaded, *method, context->device(), *size);
     report.why_no_occlusion = told.why_no_occlusion;
+    if (!loaded->baked) report.build.settle_ms = settle_ms;
     if (constants)
         report.profile = {constants->profile, constants->source, constants->told};
     else

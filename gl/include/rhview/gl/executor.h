@@ -26,7 +26,7 @@ struct FrameCounters {
     std::uint64_t draw_calls = 0;        ///< N: calls issued, of draws at once; a multi-draw is one
     std::uint64_t sub_draws = 0;         ///< index ranges submitted, of draws at once
     std::uint64_t indices = 0;           ///< V: three per triangle, of draws at once
-    std::uint64_t material_changes = 0;  ///< times that state was set: per batch and per dynamic object
+    std::uint64_t material_changes = 0;  ///< times that state was set: per batch and per object
 
     std::uint64_t queries = 0;                ///< asked, either way
     std::uint64_t query_boxes = 0;            ///< drawn for them

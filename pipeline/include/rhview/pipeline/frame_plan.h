@@ -56,7 +56,7 @@ struct OcclusionSummary {
 struct FramePlan {
     /// Static triangles: one draw call each, by batch, so that state is set once per batch.
     std::vector<DrawRange> opaque;
-    /// Dynamic objects to draw whole, by id.
+    /// Dynamic objects and static instances to draw whole, by id.
     std::vector<ObjectId> objects;
     /// Boxes of the queries, in the scene's coordinates. Their faces may lie on what they hold, to the last
     /// bit: who draws them widens them by what its rounding may move.

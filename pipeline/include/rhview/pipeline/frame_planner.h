@@ -21,7 +21,7 @@ namespace rhview {
 struct FrameInput {
     View culling_view;                      ///< `validate` accepts it
     glm::dvec3 scene_origin{0.0};           ///< world position of the zero of every box and vertex
-    std::span<const Aabb> object_boxes{};   ///< of the dynamic objects, by `ObjectId`; contain what is drawn
+    std::span<const Aabb> object_boxes{};   ///< moving or instances, by `ObjectId`; contain what is drawn
     glm::ivec2 viewport_pixels{1280, 720};  ///< what occlusion culling judges the size of boxes by
 };
 
