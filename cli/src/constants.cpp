@@ -9,6 +9,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "profile_store.h"
@@ -17,7 +18,7 @@
 namespace rhview::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"c0", "c1", "c3", "query"};
+constexpr std::array<std::string_view, 5> kNames{"c0", "c1", "c3", "query", "box"};
 
 Result<std::pair<std::string, double>> parse_assignment(std::string_view assignment) {
     const std::size_t equals = assignment.find('=');
@@ -30,8 +31,8 @@ Result<std::pair<std::string, double>> parse_assignment(std::string_view assignm
         return Error{fmt::format(
             "--set {}: write name=value with a value of 0 or more nanoseconds, as in c1=0.25", assignment)};
     if (std::ranges::find(kNames, name) == kNames.end())
-        return Error{
-            fmt::format("--set {}: unknown constant; the constants are c0, c1, c3 and query", assignment)};
+        return Error{fmt::format("--set {}: unknown constant; the constants are c0, c1, c3, query and box",
+                                 assignment)};
     return std::pair(name, value);
 }
 
@@ -139,6 +140,19 @@ Result<ChosenConstants> choose_constants(const WantedConstants& wanted, const st
         chosen.constants->told += chosen.constants->told.empty() ? "as set" : ", changed by --set";
     }
     return chosen;
+}
+
+std::optional<QueryCosts> query_costs(const WantedConstants& wanted, const UserConstants& constants) {
+    std::optional<QueryCosts> costs = constants.profile.answer_costs;
+    const double never = std::numeric_limits<double>::infinity();
+    for (const auto& [name, value] : wanted.set) {
+        if (name != "query" && name != "box") continue;
+        if (!costs) costs = QueryCosts{{.query_ns = never}, {.query_ns = never}};
+        const double draw_ns = constants.profile.c3_ns + constants.profile.sub_draw_ns.value_or(0.0);
+        AnswerCosts& way = name == "query" ? costs->hardware : costs->box_pass;
+        way = {.query_ns = value, .draw_ns = draw_ns};
+    }
+    return costs;
 }
 
 DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw) {

@@ -32,6 +32,7 @@ struct WalkOptions {
     std::string scene;
     std::string method = "rhview";
     std::string mode = "exact";
+    std::string occlusion = "auto";
     std::string submission = "plain";
     std::string size = "1280x720";
     std::optional<std::filesystem::path> path;
@@ -44,6 +45,7 @@ struct WalkOptions {
     double replica_budget = 1.0;
     bool check = false;
     int check_every = 1;
+    bool visible_set = false;
     int images_every = 30;
     std::optional<int> freeze_culling;
     std::optional<std::filesystem::path> json;

@@ -89,6 +89,45 @@ Json profile_json(const std::optional<WalkReport::Profile>& profile) {
     return json;
 }
 
+/// Statistics of a field of the occlusion records; null where there are none.
+template <class Field>
+Json occlusion_statistics(const WalkReport& report, Field field) {
+    if (!report.has_occlusion()) return nullptr;
+    return statistics(
+        report, [&](const FrameRecord& f) { return field(f.occlusion.value_or(OcclusionRecord{}), f); });
+}
+
+double share(double part, double whole) {
+    return whole > 0.0 ? part / whole : 0.0;
+}
+
+constexpr auto kHiddenFraction = [](const OcclusionRecord& o, const FrameRecord& f) {
+    return share(static_cast<double>(o.hidden), f.work.queries);
+};
+constexpr auto kExplorationShare = [](const OcclusionRecord& o, const FrameRecord& f) {
+    return share(o.exploration_ms, f.predicted_ms.value_or(0.0));
+};
+
+void add_occlusion(const WalkReport& report, Json& summary) {
+    const auto add = [&](const char* name, auto field) {
+        summary[name] = occlusion_statistics(report, field);
+    };
+    add("query_boxes", [](const OcclusionRecord& o, const FrameRecord&) { return o.boxes; });
+    add("box_pass_queries", [](const OcclusionRecord& o, const FrameRecord&) { return o.box_pass_queries; });
+    add("conditional_draws",
+        [](const OcclusionRecord& o, const FrameRecord&) { return o.conditional_draws; });
+    add("conditional_ranges",
+        [](const OcclusionRecord& o, const FrameRecord&) { return o.conditional_ranges; });
+    add("executed_ranges", [](const OcclusionRecord& o, const FrameRecord&) { return o.executed_ranges; });
+    add("skipped_indices", [](const OcclusionRecord& o, const FrameRecord&) { return o.skipped_indices; });
+    add("hidden_fraction", kHiddenFraction);
+    add("exploration_share", kExplorationShare);
+    add("query_predicted_ms", [](const OcclusionRecord& o, const FrameRecord&) { return o.query_ms; });
+    add("saved_predicted_ms", [](const OcclusionRecord& o, const FrameRecord&) { return o.saved_ms; });
+    summary["blocking_reads"] = report.has_occlusion() ? Json(report.blocking_reads) : Json(nullptr);
+    summary["lost_queries"] = report.has_occlusion() ? Json(report.lost_queries) : Json(nullptr);
+}
+
 Json summary_json(const WalkReport& report) {
     const bool has_gpu = !report.frames.empty() && report.frames.front().gpu_ms.has_value();
     const bool has_objects = report.scene.dynamic_objects > 0;
@@ -97,6 +136,11 @@ Json summary_json(const WalkReport& report) {
     summary["sub_draws"] = statistics(report, [](const FrameRecord& f) { return f.work.sub_draws; });
     summary["indices"] = statistics(report, [](const FrameRecord& f) { return f.work.indices; });
     summary["queries"] = statistics(report, [](const FrameRecord& f) { return f.work.queries; });
+    add_occlusion(report, summary);
+    const bool has_set = !report.frames.empty() && report.frames.front().visible_set_indices.has_value();
+    summary["visible_set_indices"] =
+        has_set ? statistics(report, [](const FrameRecord& f) { return f.visible_set_indices.value_or(0); })
+                : Json(nullptr);
     summary["nodes_visited"] = statistics(report, [](const FrameRecord& f) { return f.nodes_visited; });
     summary["cull_ms"] = statistics(report, [](const FrameRecord& f) { return f.cull_ms; });
     summary["frame_ms"] = statistics(report, [](const FrameRecord& f) { return f.frame_ms; });
@@ -135,7 +179,26 @@ std::string timing_line(const WalkReport& report) {
         constants.c3_ns + constants.sub_draw_ns.value_or(0.0), report.profile->told);
 }
 
+Json occlusion_json(const std::optional<OcclusionRecord>& o) {
+    if (!o) return nullptr;
+    return {{"candidates", o->candidates},
+            {"boxes", o->boxes},
+            {"hidden", o->hidden},
+            {"box_pass_queries", o->box_pass_queries},
+            {"conditional_draws", o->conditional_draws},
+            {"conditional_ranges", o->conditional_ranges},
+            {"executed_ranges", o->executed_ranges},
+            {"skipped_indices", o->skipped_indices},
+            {"query_ms", o->query_ms},
+            {"exploration_ms", o->exploration_ms},
+            {"saved_ms", o->saved_ms}};
+}
+
 }  // namespace
+
+bool WalkReport::has_occlusion() const {
+    return !frames.empty() && frames.front().occlusion.has_value();
+}
 
 int WalkReport::checked_frames() const {
     return static_cast<int>(
@@ -164,6 +227,7 @@ std::string to_json(const WalkReport& report) {
     json["method"] = report.method;
     json["mode"] = report.mode;
     json["submission"] = report.submission;
+    json["occlusion"] = report.occlusion;
     json["leaf"] = or_null(report.leaf);
     json["frames"] = report.frames.size();
     json["size"] = {report.width, report.height};
@@ -187,12 +251,14 @@ std::string to_json(const WalkReport& report) {
                                      {"fragments", count(f.work.fragments)},
                                      {"passed_samples", count(f.work.passed_samples)},
                                      {"queries", count(f.work.queries)},
+                                     {"occlusion", occlusion_json(f.occlusion)},
                                      {"nodes_visited", f.nodes_visited},
                                      {"cull_ms", f.cull_ms},
                                      {"frame_ms", f.frame_ms},
                                      {"gpu_ms", or_null(f.gpu_ms)},
                                      {"predicted_ms", or_null(f.predicted_ms)},
                                      {"running_predicted_ms", or_null(f.running_predicted_ms)},
+                                     {"visible_set_indices", or_null(f.visible_set_indices)},
                                      {"missing_pixels", or_null(f.missing_pixels)}});
     // A file name need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -239,6 +305,22 @@ std::string to_table(const WalkReport& report) {
     if (report.submission != "plain")
         row("sub-draws", 1, [](const FrameRecord& f) { return f.work.sub_draws; });
     row("indices", 0, [](const FrameRecord& f) { return f.work.indices; });
+    if (!report.frames.empty() && report.frames.front().visible_set_indices)
+        row("of visible leaves", 0, [](const FrameRecord& f) { return f.visible_set_indices.value_or(0); });
+    if (report.has_occlusion()) {
+        const auto of = [&](const char* name, int decimals, auto field) {
+            row(name, decimals,
+                [&](const FrameRecord& f) { return field(f.occlusion.value_or(OcclusionRecord{}), f); });
+        };
+        row("queries", 1, [](const FrameRecord& f) { return f.work.queries; });
+        of("hidden, %", 1,
+           [](const OcclusionRecord& o, const FrameRecord& f) { return 100.0 * kHiddenFraction(o, f); });
+        of("ranges skipped", 1, [](const OcclusionRecord& o, const FrameRecord&) {
+            return o.conditional_ranges - o.executed_ranges;
+        });
+        of("indices skipped", 0,
+           [](const OcclusionRecord& o, const FrameRecord&) { return o.skipped_indices; });
+    }
     row("nodes visited", 0, [](const FrameRecord& f) { return f.nodes_visited; });
     if (report.scene.dynamic_objects > 0)
         row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
@@ -253,6 +335,11 @@ std::string to_table(const WalkReport& report) {
                     report.scene.batches + report.scene.dynamic_objects,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
     table += timing_line(report);
+    if (report.has_occlusion())
+        table += fmt::format("  occlusion: {} answers waited for, {} lost\n", report.blocking_reads,
+                             report.lost_queries);
+    else if (!report.why_no_occlusion.empty())
+        table += fmt::format("  no occlusion culling: {}\n", report.why_no_occlusion);
     if (const int checked = report.checked_frames(); checked > 0)
         table += fmt::format("  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
                              checked == 1 ? "" : "s");

@@ -12,6 +12,21 @@
 
 namespace rhview::cli {
 
+/// What occlusion culling did in one frame.
+struct OcclusionRecord {
+    std::uint64_t candidates = 0;  ///< nodes and objects in the frustum that were decided about
+    std::uint64_t boxes = 0;       ///< asked with
+    std::uint64_t hidden = 0;      ///< queries whose answer was that nothing is seen
+    std::uint64_t box_pass_queries = 0;
+    std::uint64_t conditional_draws = 0;   ///< calls
+    std::uint64_t conditional_ranges = 0;  ///< in those
+    std::uint64_t executed_ranges = 0;     ///< of those, by the answers
+    std::uint64_t skipped_indices = 0;     ///< of the others
+    double query_ms = 0.0;                 ///< what asking costs by the model
+    double exploration_ms = 0.0;
+    double saved_ms = 0.0;
+};
+
 /// What was counted and measured in one frame; absent is what was not measured.
 struct FrameRecord {
     int frame = 0;
@@ -23,6 +38,8 @@ struct FrameRecord {
     std::optional<double> gpu_ms;
     std::optional<double> predicted_ms;
     std::optional<double> running_predicted_ms;  ///< with constants that follow the frames before
+    std::optional<OcclusionRecord> occlusion;
+    std::optional<std::uint64_t> visible_set_indices;  ///< of the leaves that show a pixel
     std::optional<std::uint64_t> missing_pixels;
 };
 
@@ -58,6 +75,10 @@ struct WalkReport {
     };
     std::optional<Profile> profile;
     std::string why_no_profile;
+    std::string occlusion;             ///< "auto", "hardware", "boxes" or "off"
+    std::string why_no_occlusion;      ///< where it was wanted and could not be
+    std::uint64_t blocking_reads = 0;  ///< of answers, in the whole walk
+    std::uint64_t lost_queries = 0;
     std::string method;
     std::string mode;
     std::string submission;
@@ -67,6 +88,7 @@ struct WalkReport {
     std::vector<FrameRecord> frames;
     std::uint64_t plan_hash = 0;
 
+    [[nodiscard]] bool has_occlusion() const;
     [[nodiscard]] int checked_frames() const;
     [[nodiscard]] std::uint64_t missing_pixels() const;
 };

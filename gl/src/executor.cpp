@@ -16,6 +16,7 @@
 #include "occlusion_tests.h"
 #include "program.h"
 #include "rhview/base/rounding.h"
+#include "rhview/gl/work_counter.h"
 #include "state_guard.h"
 
 namespace rhview::gl {
@@ -293,7 +294,9 @@ FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, c
         return counters;
     }
     const QueryStateGuard query_guard;
+    if (options.counter != nullptr) options.counter->pause();
     tests_->ask(plan, scene, view, counters);
+    if (options.counter != nullptr) options.counter->resume();
     query_guard.put_back_raster_state();
     begin(view, options);
     draw_conditional(plan, scene, view, options.submission, counters);

@@ -27,6 +27,7 @@ void FramePlan::clear() {
     conditional_objects.clear();
     chosen.clear();
     nodes_visited = 0;
+    occlusion.reset();
     predicted_ns.reset();
 }
 

@@ -50,6 +50,8 @@ struct ExecutedDraws {
 ExecutedDraws count_executed(const FramePlan& plan, const SceneBuffers& scene,
                              std::span<const QueryAnswer> answers);
 
+class WorkCounter;
+
 enum class Submission {
     Plain,      ///< one call per range
     MultiDraw,  ///< one call per batch
@@ -58,6 +60,7 @@ enum class Submission {
 struct DrawOptions {
     Submission submission = Submission::Plain;
     std::optional<glm::vec3> colour;  ///< instead of the materials' and vertices', whose brightness is kept
+    WorkCounter* counter = nullptr;   ///< one that counts meanwhile: paused while boxes are drawn
 };
 
 struct ExecutorOptions {

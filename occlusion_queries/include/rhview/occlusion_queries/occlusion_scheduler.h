@@ -13,7 +13,9 @@
 /// on a query of this frame.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,8 +34,8 @@ struct OcclusionCandidate {
     float pixels = 0.0f;     ///< that its boxes cover, about
     float distance = 0.0f;   ///< of its box from the eye, in any unit that all share
     std::uint16_t boxes = 1;
-    std::uint16_t draws = 1;      ///< conditional draws it would take
-    bool testable = true;         ///< false: the eye is in its boxes, or they cross the near plane: it is drawn
+    std::uint16_t draws = 1;  ///< conditional draws it would take
+    bool testable = true;     ///< false: the eye is in its boxes, or they cross the near plane: it is drawn
     bool counts_samples = false;  ///< the answer should say how many: hardware queries only
 };
 
@@ -73,17 +75,22 @@ struct OcclusionDecisions {
 class OcclusionScheduler {
   public:
     explicit OcclusionScheduler(const OcclusionSettings& settings = {}, const QueryCosts& costs = {});
+    ~OcclusionScheduler();
+    OcclusionScheduler(OcclusionScheduler&&) noexcept;
+    OcclusionScheduler& operator=(OcclusionScheduler&&) noexcept;
 
     /// Items are below `count`; new ones are Unknown, those beyond are forgotten.
     void resize(std::size_t count);
+    /// A cost that is no number, or below 0, is not known: what it is part of is never asked.
     void set_costs(const QueryCosts& costs);
     [[nodiscard]] const OcclusionSettings& settings() const;
 
     /// Answers of earlier frames in any order, each at most once; unknown tickets (twice answered, long
     /// given up) are counted and otherwise ignored.
     void absorb(std::span<const QueryAnswer> answers);
-    /// `frame_ns`: what the frame is predicted to take; exploration gets its share of it.
-    void begin_frame(double frame_ns);
+    /// `frame_ns`: what the frame is predicted to take; exploration gets its share of it. `screen_pixels`: of
+    /// the render target; 0 is "not known": nothing is then drawn at once for others to hide behind.
+    void begin_frame(double frame_ns, double screen_pixels = 0.0);
 
     /// The traversal is at `item`, which is in the frustum: what is believed of it. An item that was not
     /// visited in the frame before is forgotten first, and then believed to be `otherwise` (Hidden: with the
@@ -105,6 +112,10 @@ class OcclusionScheduler {
         std::uint64_t unknown_tickets = 0, lost = 0;  ///< answers that nobody asked for; queries given up
     };
     [[nodiscard]] const Counters& counters() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 }  // namespace rhview

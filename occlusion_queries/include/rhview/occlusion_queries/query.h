@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "rhview/timing_model/query_costs.h"
+
 namespace rhview {
 
 /// Who decides on the device whether what hangs on a query is drawn. The CPU waits for neither.
@@ -20,26 +22,6 @@ struct QueryAnswer {
     std::uint64_t ticket = 0;
     bool visible = true;
     std::uint64_t samples = 0;  ///< that passed; only of queries that count them
-};
-
-/// What one way of asking costs, ns: a query with b boxes that cover p pixels in all, on which d draws hang,
-/// costs `query_ns + b·box_ns + p·pixel_ns + d·draw_ns`, and each frame that uses it `frame_ns` once.
-struct AnswerCosts {
-    double frame_ns = 0.0;
-    double query_ns = 0.0;
-    double box_ns = 0.0;
-    double pixel_ns = 0.0;
-    double draw_ns = 0.0;
-
-    friend bool operator==(const AnswerCosts&, const AnswerCosts&) = default;
-};
-
-/// Both ways on one machine.
-struct QueryCosts {
-    AnswerCosts hardware;
-    AnswerCosts box_pass;
-
-    friend bool operator==(const QueryCosts&, const QueryCosts&) = default;
 };
 
 }  // namespace rhview

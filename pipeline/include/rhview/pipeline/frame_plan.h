@@ -43,6 +43,14 @@ struct ConditionalObject {
     friend bool operator==(const ConditionalObject&, const ConditionalObject&) = default;
 };
 
+/// What occlusion culling did with the frame, by its model.
+struct OcclusionSummary {
+    std::uint64_t candidates = 0;  ///< nodes and objects in the frustum that were decided about
+    double query_ns = 0.0;         ///< what asking costs
+    double exploration_ns = 0.0;   ///< part of it, spent to learn
+    double saved_ns = 0.0;         ///< expected, against drawing all candidates, less `query_ns`
+};
+
 /// Draw `opaque` and `objects`, ask `queries` against that depth, draw `conditional` and
 /// `conditional_objects`; send the answers to the planner (`FramePlanner::absorb`), whenever they come.
 struct FramePlan {
@@ -59,7 +67,9 @@ struct FramePlan {
     /// What the planner chose, by its own ids (`FramePlanner::bounds_of`): for pictures and statistics.
     std::vector<std::uint32_t> chosen;
     std::uint64_t nodes_visited = 0;
-    /// What the draws of `opaque` cost by the planner's model, without the objects; absent where it has none.
+    std::optional<OcclusionSummary> occlusion;  ///< absent: the planner knows no queries
+    /// What the draws of `opaque` and `conditional` and the queries cost by the planner's model, without the
+    /// objects; absent where it has none.
     std::optional<double> predicted_ns;
 
     /// Empties the plan and keeps its memory.

@@ -5,6 +5,8 @@
 /// What every culling method looks like to a render loop.
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -17,9 +19,10 @@ namespace rhview {
 
 /// What a frame is planned from; the caller owns it.
 struct FrameInput {
-    View culling_view;                     ///< `validate` accepts it
-    glm::dvec3 scene_origin{0.0};          ///< world position of the zero of every box and vertex
-    std::span<const Aabb> object_boxes{};  ///< of the dynamic objects, by `ObjectId`; contain what is drawn
+    View culling_view;                      ///< `validate` accepts it
+    glm::dvec3 scene_origin{0.0};           ///< world position of the zero of every box and vertex
+    std::span<const Aabb> object_boxes{};   ///< of the dynamic objects, by `ObjectId`; contain what is drawn
+    glm::ivec2 viewport_pixels{1280, 720};  ///< what occlusion culling judges the size of boxes by
 };
 
 /// One per view: it may remember earlier frames. Equal inputs in equal order give equal plans; after the
