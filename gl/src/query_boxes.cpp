@@ -175,7 +175,7 @@ BoxInstance BoxWidener::widen(const Aabb& box, std::uint32_t slot) const {
         return instance;
     const Range depth = depth_range(low, high);
     double shift = base_shift_ + kRangeShare * (depth.high - depth.low);
-    if (base_shift_ == 0.0 || nearest_ != -1.0f)
+    if (nearest_ != -1.0f)
         shift += kDepthRounding * kUnit * std::max(std::abs(depth.low), std::abs(depth.high));
     instance.low = nearest_float(low);
     instance.high = nearest_float(high);
