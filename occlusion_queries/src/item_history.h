@@ -13,7 +13,7 @@
 
 namespace rhview {
 
-/// What is known of one item. Frames count from 2, so that 0 is never.
+/// What is known of one item. Frames count from far above 0, which is never.
 struct ItemHistory {
     std::uint32_t visited = 0;        ///< frame
     std::uint32_t since = 0;          ///< it is known since: queries of earlier frames say nothing of it
@@ -71,6 +71,9 @@ class ItemHistories {
     [[nodiscard]] double turn_frames(double visible_frames) const { return turn_frames_ + visible_frames; }
 
   private:
+    /// Later than the longest sensible wait before it.
+    static constexpr std::uint32_t kFirstFrame = 1u << 16;
+
     void believe_hidden(ItemHistory& item, const MemberAnswer& answer);
     void believe_visible(ItemHistory& item, const MemberAnswer& answer);
     void turn_visible(ItemHistory& item, std::uint32_t id, std::uint32_t frame);
@@ -88,7 +91,7 @@ class ItemHistories {
     std::uint32_t visible_interval_;
     std::uint32_t merge_interval_;
     std::uint32_t max_merge_interval_;
-    std::uint32_t frame_ = 1;
+    std::uint32_t frame_ = kFirstFrame;
     std::uint32_t doubtful_ = 0;
     std::vector<ItemHistory> items_;
 };

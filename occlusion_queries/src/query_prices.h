@@ -45,7 +45,7 @@ inline float query_share_ns(float query_ns, float p_seen, float render_ns, float
     if (!(step < query_ns) || most <= 1.0f) return query_ns;
     const float free = 2.0f * step - p_seen * render_ns;
     const float full = query_ns / most + p_seen * (most * query_ns + (most - 1.0f) * render_ns);
-    return step * most < query_ns ? full : free;
+    return std::min(query_ns, step * most < query_ns ? full : free);  // alone, nobody asks again
 }
 
 }  // namespace rhview
