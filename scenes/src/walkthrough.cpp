@@ -20,7 +20,7 @@ constexpr int kCells = 48;
 std::vector<std::uint32_t> used_vertices(const SceneMesh& mesh) {
     std::vector<std::uint32_t> vertices(mesh.indices.begin(), mesh.indices.end());
     std::ranges::sort(vertices);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     return vertices;
 }
 
