@@ -27,8 +27,8 @@ double at_least(double value, double least) {
 }  // namespace
 
 ItemHistories::ItemHistories(const OcclusionSettings& settings)
-    : keep_(settings.keep_certainty, settings.keep_doubt, at_least(settings.keep_prior_answers, 1.0),
-            at_least(settings.memory_answers, 1.0)),
+    : keep_(at_least(settings.keep_certainty, 0.0), at_least(settings.keep_doubt, 0.0),
+            at_least(settings.keep_prior_answers, 1.0), at_least(settings.memory_answers, 1.0)),
       unknown_(at_least(std::min(settings.unknown_hidden, 1.0), 0.0), kUnknownPriorAnswers,
                at_least(settings.memory_answers, 1.0)),
       turning_(at_least(settings.turn_frames, 1.0), at_least(settings.memory_item_frames, 1.0)),

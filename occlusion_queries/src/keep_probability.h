@@ -22,7 +22,7 @@ class KeepProbability {
     KeepProbability(double certainty, double doubt, double prior_answers, double memory) {
         // Powers of e by multiplication: std::exp differs in the last bit between libraries.
         constexpr double kInverseE = 0.36787944117144233;
-        double power = std::max(doubt, 0.0);
+        double power = doubt;
         learned_.reserve(kLast + 1);
         for (std::uint32_t i = 0; i <= kLast; ++i) {
             learned_.emplace_back(std::clamp(certainty - power, 0.0, 1.0), prior_answers, memory);
