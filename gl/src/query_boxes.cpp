@@ -20,7 +20,9 @@ constexpr double kClipRounding = 12.0;  ///< u, of the geometry and of the box e
 constexpr double kGridSteps = 4.0;      ///< of GL_SUBPIXEL_BITS
 constexpr double kDepthRounding = 8.0;  ///< u, of the largest depth
 constexpr double kDepthSteps = 2.0;     ///< of a fixed-point depth buffer
-constexpr double kRangeShare = 1.0 / 64.0;
+/// u per pixel of the picture, of the box's depth range: interpolation errs by up to 8u·slope·size, and
+/// slopes go up to the whole range in an eighth of a pixel.
+constexpr double kRangeRounding = 64.0;
 /// The eye is rounded to 2^-48 of its coordinates, an object's once more.
 constexpr double kEyeRounding = 0x1p-46;
 
@@ -110,6 +112,7 @@ BoxWidener::BoxWidener(const View& view, const glm::dvec3& scene_origin, const R
     const Inverse inverse(rows_);
     spread_ = inverse.norm();
     rounding_ = kClipRounding * (1.0 + growth) * kUnit;
+    range_share_ = kRangeRounding * kUnit * std::max(raster.width, raster.height);
     snap_ = 2.0 * kGridSteps * std::exp2(-raster.subpixel_bits) / std::min(raster.width, raster.height);
     glm::dvec3 residual(0.0);  // M_2·A⁺
     for (int i = 0; i < 3; ++i) residual[i] = std::abs(glm::dot(glm::dvec3(rows_[2]), inverse.columns[i]));
@@ -174,7 +177,7 @@ BoxInstance BoxWidener::widen(const Aabb& box, std::uint32_t slot) const {
     if (!(range(inside_near_, low, high).low > slack) || !(range(rows_[3], low, high).low > 0.0))
         return instance;
     const Range depth = depth_range(low, high);
-    double shift = base_shift_ + kRangeShare * (depth.high - depth.low);
+    double shift = base_shift_ + range_share_ * (depth.high - depth.low);
     if (nearest_ != -1.0f)
         shift += kDepthRounding * kUnit * std::max(std::abs(depth.low), std::abs(depth.high));
     instance.low = nearest_float(low);

@@ -127,6 +127,24 @@ TEST_P(ViewCases, pieces_in_the_plane_of_what_hides_them_change_no_depth) {
     }
 }
 
+// The larger the picture, the larger the rounding of steep depths.
+TEST_P(ViewCases, large_pictures_lose_no_pixel_of_steep_triangles) {
+    const auto [depth, far] = GetParam();
+    target_.emplace(RenderTarget::create(1920, 1080).value());
+    Uniform uniform(84);
+    QueryPlanner planner;
+    for (unsigned seed = 0; seed < 3; ++seed) {
+        const CellScene cells = CellMaker(400 + seed).make(500, 12.0);
+        const SceneBuffers buffers = SceneBuffers::upload(cells.scene).value();
+        for (int v = 0; v < 3; ++v) {
+            const glm::dvec3 eye = uniform.point(14.0);
+            const View view = view_at(eye, uniform.point(4.0) - eye, depth, far);
+            EXPECT_EQ(missing(planner.plan(cells.cells), cells.cells, buffers, view), 0u) << seed << " " << v;
+            answers();
+        }
+    }
+}
+
 // Objects are transformed in their own space: other matrices, other rounding.
 TEST_P(ViewCases, conditional_objects_leave_the_depths_of_drawing_them_all) {
     const auto [depth, far] = GetParam();

@@ -20,10 +20,11 @@
 ///    depth) is added to 4: M_2·A⁺·(m w, m w, e_3) and M_2·A⁺·(e_0, e_1, ·).
 /// 4. Depth moves towards the viewer by e_2 and the above, evaluated at each corner (they are convex in p, so
 ///    the hull of the moved corners holds every moved vertex); by 8u of the largest depth and two steps of a
-///    fixed-point depth buffer (viewport transform, interpolation and conversion of both); and by 1/64 of the
-///    box's own depth range: interpolation errs by about u·slope·picture width, so this covers triangles as
-///    steep as the box's whole range in an eighth of a pixel, in pictures 4,096 wide. Depth is clamped
-///    instead of clipped.
+///    fixed-point depth buffer (viewport transform, interpolation and conversion of both); and by 64u per
+///    pixel of the picture's longer side of the box's own depth range (1/205 at 1,280): interpolation errs
+///    by up to 8u·slope·side, so this covers triangles as steep as the box's whole range in an eighth of a
+///    pixel; of steeper ones (slivers, faces seen edge-on) tests have lost no pixel, but that is no proof.
+///    Depth is clamped instead of clipped.
 ///
 /// Of a box outside the viewer only the up to three faces that face him are drawn: of a convex body they
 /// cover all of its outline, at its nearest depth. A box with the eye inside, crossing the near plane, empty
@@ -106,6 +107,7 @@ class BoxWidener {
     double snap_ = 0.0;        ///< m
     double eye_error_ = 0.0;   ///< metres
     double base_shift_ = 0.0;  ///< per w
+    double range_share_ = 0.0;
     float nearer_ = -1.0f;
     float nearest_ = -1.0f;
 };
