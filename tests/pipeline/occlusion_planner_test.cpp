@@ -24,8 +24,9 @@ constexpr QueryCosts kQueryCosts{{.query_ns = 300.0, .box_ns = 30.0, .pixel_ns =
                                  {.query_ns = 10.0, .box_ns = 90.0, .pixel_ns = 1e-3, .draw_ns = 60.0}};
 
 View view_at(double time) {
-    return {look_along({5 * std::sin(3 * time), 0, 20 * time}, {std::cos(time), 0, std::sin(time)}, {0, 1, 0}),
-            perspective(1.0, 1.5, 0.1, 500.0, ClipDepth::ReversedZeroToOne), ClipDepth::ReversedZeroToOne};
+    return {
+        look_along({5 * std::sin(3 * time), 0, 20 * time}, {std::cos(time), 0, std::sin(time)}, {0, 1, 0}),
+        perspective(1.0, 1.5, 0.1, 500.0, ClipDepth::ReversedZeroToOne), ClipDepth::ReversedZeroToOne};
 }
 
 RhOctree octree_of(const Balls& balls, std::uint32_t leaf = 40) {
@@ -65,7 +66,8 @@ class World {
   private:
     [[nodiscard]] bool sees(const PlannedQuery& query) const {
         const auto boxes = std::span(plan.query_boxes).subspan(query.first_box, query.box_count);
-        return std::ranges::any_of(boxes, [&](const Aabb& box) { return static_cast<double>(box.min.x) < x_; });
+        return std::ranges::any_of(boxes,
+                                   [&](const Aabb& box) { return static_cast<double>(box.min.x) < x_; });
     }
 
     FramePlanner& planner_;
@@ -84,7 +86,8 @@ Fates fates_of(const Balls& balls, const RhOctree& octree, const FramePlan& plan
     std::vector<bool> at_once(balls.positions.size());
     std::vector<std::uint32_t> query(balls.positions.size(), kNone);
     const auto each = [&](const DrawRange& range, const auto& mark) {
-        for (std::uint32_t k = 0; k < range.index_count; k += 3) mark(octree.indices()[range.first_index + k]);
+        for (std::uint32_t k = 0; k < range.index_count; k += 3)
+            mark(octree.indices()[range.first_index + k]);
     };
     for (const DrawRange& range : plan.opaque) each(range, [&](std::uint32_t i) { at_once[i] = true; });
     for (const ConditionalRange& conditional : plan.conditional)
