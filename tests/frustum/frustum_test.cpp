@@ -109,8 +109,10 @@ TEST(Frustum, boxes_without_a_number_or_without_an_end_are_never_outside_nor_ins
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInf = std::numeric_limits<float>::infinity();
     for (const Aabb& box :
-         {Aabb{glm::vec3(kNan), glm::vec3(kNan)}, Aabb{glm::vec3(0, kNan, 0), glm::vec3(1)}, Aabb{},
-          Aabb{glm::vec3(-kInf), glm::vec3(kInf)}, Aabb{glm::vec3(-3e38f), glm::vec3(3e38f)}})
+         {Aabb{glm::vec3(kNan), glm::vec3(kNan)}, Aabb{glm::vec3(0, kNan, 0), glm::vec3(1)},
+          Aabb{glm::vec3(0, 0, 50), glm::vec3(1, kNan, 51)},
+          Aabb{glm::vec3(kNan, 0, 50), glm::vec3(1, 1, 51)}, Aabb{}, Aabb{glm::vec3(-kInf), glm::vec3(kInf)},
+          Aabb{glm::vec3(-3e38f), glm::vec3(3e38f)}})
         EXPECT_EQ(classify_all(frustum, box), Containment::Intersecting);
 }
 
