@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 #include "box_kernels.h"
 #include "hierarchy_split.h"
+#include "order_ranges.h"
 #include "rhview/base/assert.h"
 
 namespace rhview {
@@ -20,22 +20,6 @@ namespace {
 constexpr std::uint32_t kMaxDepth = 64;
 // From here on boxes are halved: 2^32 of them take 32 levels more.
 constexpr std::uint32_t kHalveFrom = 31;
-
-void append(std::vector<OrderRange>& ranges, std::uint32_t first, std::uint32_t count) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == first)
-        ranges.back().count += count;
-    else
-        ranges.push_back({first, count});
-}
-
-void append_bits(std::vector<OrderRange>& ranges, std::uint32_t first, std::uint64_t bits) {
-    while (bits != 0) {
-        const int skip = std::countr_zero(bits), run = std::countr_one(bits >> skip);
-        append(ranges, first + static_cast<std::uint32_t>(skip), static_cast<std::uint32_t>(run));
-        if (skip + run == 64) break;
-        bits &= ~std::uint64_t{0} << (skip + run);
-    }
-}
 
 }  // namespace
 
@@ -152,7 +136,7 @@ HierarchyVisits BoxHierarchy::cull(const Frustum& frustum, std::vector<OrderRang
         i = node.escape;
         if (containment == Containment::Outside) continue;
         if (containment == Containment::Inside) {
-            append(visible, node.first, node.count);
+            append_range(visible, node.first, node.count);
             continue;
         }
         if (mask != kernel_mask) planes = kernel_planes(frustum, kernel_mask = mask);

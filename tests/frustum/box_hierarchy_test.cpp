@@ -45,7 +45,9 @@ std::vector<bool> hierarchy_answer(const Frustum& frustum, const BoxHierarchy& t
     std::vector<bool> visible(tree.order().size());
     for (std::size_t r = 0; r < ranges.size(); ++r) {
         EXPECT_GT(ranges[r].count, 0u);
-        if (r > 0) EXPECT_GT(ranges[r].first, ranges[r - 1].first + ranges[r - 1].count) << "not merged";
+        if (r > 0) {
+            EXPECT_GT(ranges[r].first, ranges[r - 1].first + ranges[r - 1].count) << "not merged";
+        }
         for (std::uint32_t i = 0; i < ranges[r].count; ++i)
             visible[index_of(tree.order()[ranges[r].first + i])] = true;
     }

@@ -26,9 +26,9 @@ enum class HierarchySplit {
 };
 
 struct HierarchyOptions {
-    HierarchySplit split = HierarchySplit::SurfaceArea;
+    HierarchySplit split = HierarchySplit::Median;
     std::uint32_t width = 2;            ///< children of a node, at most; 2 to 8
-    std::uint32_t max_leaf_boxes = 32;  ///< 1 to 64: tested by one call of the vector loop
+    std::uint32_t max_leaf_boxes = 64;  ///< 1 to 64: tested by one call of the vector loop
 };
 
 /// Boxes [first, first + count) of `BoxHierarchy::order`.
