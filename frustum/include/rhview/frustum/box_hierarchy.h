@@ -26,7 +26,7 @@ enum class HierarchySplit {
 };
 
 struct HierarchyOptions {
-    HierarchySplit split = HierarchySplit::Median;
+    HierarchySplit split = HierarchySplit::SurfaceArea;
     std::uint32_t width = 2;            ///< children of a node, at most; 2 to 8
     std::uint32_t max_leaf_boxes = 64;  ///< 1 to 64: tested by one call of the vector loop
 };

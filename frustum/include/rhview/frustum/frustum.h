@@ -59,6 +59,7 @@ struct Frustum {
 };
 
 /// The frustum of a view that `validate` accepts; `scene_origin` is the world position of the boxes' zero.
+/// A plane that is not made of numbers, or of none but zeros, does not exist: nothing is outside of it.
 /// Cost: about 200 flops in double. Source: Gribb & Hartmann 2001, on the camera-relative clip matrix.
 Frustum make_frustum(const View& view, const glm::dvec3& scene_origin = glm::dvec3(0.0));
 
