@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/allocations.h"
 #include "random_boxes.h"
 
 namespace rhview {
@@ -161,6 +162,21 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{HierarchySplit::Median, 4, 64}, Shape{HierarchySplit::Median, 8, 3},
                     Shape{HierarchySplit::SurfaceArea, 2, 32}, Shape{HierarchySplit::SurfaceArea, 4, 1},
                     Shape{HierarchySplit::SurfaceArea, 8, 17}));
+
+TEST(BoxHierarchy, a_warm_culling_allocates_nothing) {
+    Uniform uniform(9);
+    const std::vector<Aabb> boxes = random_boxes(uniform, 3000, glm::dvec3(0.0), 100.0, 0.1, 10.0);
+    BoxHierarchy tree(boxes);
+    const BoxArrays arrays(boxes);
+    std::vector<std::uint64_t> words(visibility_words(boxes.size()));
+    std::vector<OrderRange> ranges(boxes.size());
+    const Frustum frustum = make_frustum(random_view(uniform, glm::dvec3(0.0), ClipDepth::ZeroToOne));
+    const long before = allocations();
+    tree.cull(frustum, ranges);
+    tree.refit(boxes);
+    cull_boxes(frustum, arrays.spans(), words);
+    EXPECT_EQ(allocations(), before);
+}
 
 TEST(BoxHierarchy, of_boxes_in_a_geometric_row_is_not_deeper_than_its_bound) {
     // Each mean leaves one box on the far side: a tree by means alone would be as deep as there are boxes.
