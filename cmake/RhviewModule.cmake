@@ -19,7 +19,7 @@ set(RHVIEW_FLOOR_pipeline 3)
 set(RHVIEW_FLOOR_gl 4)
 set(RHVIEW_FLOOR_baselines 4)
 
-# What an engine takes: needs GLM, oneTBB and meshoptimizer. rhview::rhview links those of them that are built; the package's default
+# What an engine takes: needs GLM, oneTBB, meshoptimizer and Highway. rhview::rhview links those of them that are built; the package's default
 # component holds them.
 set(RHVIEW_CORE_MODULES base frustum timing_model occlusion_queries rhoctree pipeline)
 
