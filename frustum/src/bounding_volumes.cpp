@@ -39,7 +39,7 @@ Containment classify(const Frustum& frustum, const Sphere& sphere, PlaneMask& ma
 
 Containment classify(const Frustum& frustum, const OrientedBox& box, PlaneMask& mask) {
     const glm::vec3 centre(glm::dvec3(box.centre) - frustum.eye);
-    const auto& [a, b, c] = box.half_axes;
+    const glm::vec3 &a = box.half_axes[0], &b = box.half_axes[1], &c = box.half_axes[2];
     const glm::vec3 reach = glm::abs(centre) + (glm::abs(a) + glm::abs(b) + glm::abs(c));
     return classify_volume(frustum, centre, reach, mask, [&](const glm::vec3& normal) {
         return glm::abs(glm::dot(normal, a)) + glm::abs(glm::dot(normal, b)) + glm::abs(glm::dot(normal, c));
