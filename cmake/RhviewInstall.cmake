@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Install rules and the CMake package. The core modules are the component `core`; every other module is a component of
-# its own name, with its own export file, so that find_package(rhview) looks for GLM, oneTBB and meshoptimizer alone.
+# its own name, with its own export file, so that find_package(rhview) looks for GLM, oneTBB, meshoptimizer and
+# Highway alone.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

@@ -13,14 +13,15 @@ set(RHVIEW_FLOOR_base 0)
 set(RHVIEW_FLOOR_frustum 1)
 set(RHVIEW_FLOOR_scenes 1)
 set(RHVIEW_FLOOR_timing_model 1)
+set(RHVIEW_FLOOR_occlusion_queries 2)
 set(RHVIEW_FLOOR_rhoctree 2)
 set(RHVIEW_FLOOR_pipeline 3)
 set(RHVIEW_FLOOR_gl 4)
 set(RHVIEW_FLOOR_baselines 4)
 
-# What an engine takes: needs GLM, oneTBB and meshoptimizer. rhview::rhview links those of them that are built; the package's default
+# What an engine takes: needs GLM, oneTBB, meshoptimizer and Highway. rhview::rhview links those of them that are built; the package's default
 # component holds them.
-set(RHVIEW_CORE_MODULES base frustum timing_model rhoctree pipeline)
+set(RHVIEW_CORE_MODULES base frustum timing_model occlusion_queries rhoctree pipeline)
 
 # Flags of our own targets only: consumers see none of them.
 function(rhview_private_options target)

@@ -15,7 +15,7 @@ packages=(
     # the fuzzer: Clang, its sanitizers and libFuzzer
     clang libclang-rt-dev
     # the core
-    libglm-dev libtbb-dev libmeshoptimizer-dev
+    libglm-dev libtbb-dev libmeshoptimizer-dev libhwy-dev
     # the timing model, to build it only
     libeigen3-dev
     # gl: entry points, contexts without a window, a software renderer, PNG files

@@ -148,7 +148,8 @@ Status RhoFile::check_gap(std::uint64_t begin, std::uint64_t end) const {
     return success();
 }
 
-Result<MappableArray<std::byte>> RhoFile::section(SectionTag tag, std::uint32_t version) const {
+Result<MappableArray<std::byte>> RhoFile::section(SectionTag tag, std::uint32_t version,
+                                                  std::uint32_t oldest) const {
     const Section* const found = find(tag);
     if (found == nullptr) return error("section " + text_of(tag) + " is missing");
     if (found->version > version)
@@ -156,6 +157,10 @@ Result<MappableArray<std::byte>> RhoFile::section(SectionTag tag, std::uint32_t 
                      std::to_string(found->version) + ", and this program reads up to " +
                      std::to_string(version) + "; update rhview or bake the scene again with this program"};
     if (found->version == 0) return error(tag, "there is no version 0");
+    if (found->version < oldest)
+        return Error{name_ + ": section " + text_of(tag) + " is of version " +
+                     std::to_string(found->version) + ", and this program reads none before " +
+                     std::to_string(oldest) + "; bake the scene again with this program"};
     const std::span<const std::byte> bytes = bytes_->bytes().subspan(found->offset, found->size);
     if (block_checksum(bytes) != found->checksum)
         return error(tag, "its checksum does not fit: the file is damaged");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "constants.h"
+#include "instances.h"
 #include "method.h"
 #include "progress.h"
 #include "rhview/base/version.h"
@@ -11,6 +12,7 @@
 #include "rhview/gl/timer.h"
 #include "scene_source.h"
 #include "verbs.h"
+#include "walk_report.h"
 
 namespace rhview::cli {
 namespace {
@@ -19,17 +21,17 @@ namespace {
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
 
-/// The costs that `rhview` builds by, chosen as a walk would.
-Result<DrawCosts> costs_of(const BakeOptions& options, const WantedConstants& wanted,
-                           const LoadedScene& loaded) {
-    if (options.method != "rhview") return DrawCosts();
+/// The constants that `rhview` builds by, chosen as a walk would; none for other methods.
+Result<std::optional<UserConstants>> constants_of(const BakeOptions& options, const WantedConstants& wanted,
+                                                  const LoadedScene& loaded) {
+    if (options.method != "rhview") return std::optional<UserConstants>();
     const Result<gl::Context> context = gl::Context::create_headless();
     if (!context) return context.error();
     const Result<ChosenConstants> chosen =
         choose_constants(wanted, options.scene, loaded, context->device(), kWidth, kHeight);
     if (!chosen) return chosen.error();
     if (!chosen->warning.empty()) fmt::print(stderr, "rhview: warning: {}\n", chosen->warning);
-    return chosen->constants ? draw_costs(chosen->constants->profile, false) : DrawCosts();
+    return chosen->constants;
 }
 
 }  // namespace
@@ -41,6 +43,7 @@ Result<int> run_bake(const BakeOptions& options) {
     if (options.method != "octree" && options.method != "rhview-seed" && options.method != "rhview")
         return Error{fmt::format("--method {}: has no octree to bake; write octree, rhview-seed or rhview",
                                  options.method)};
+    if (Status status = check_instances(options.instances); !status) return status.error();
     const Result<WantedConstants> wanted = parse_constants(options.profile, options.set);
     if (!wanted) return wanted.error();
     Result<RhoWriter> writer = RhoWriter::create(options.output);
@@ -48,15 +51,18 @@ Result<int> run_bake(const BakeOptions& options) {
 
     Progress progress;
     progress.say("loading " + options.scene);
-    const Result<LoadedScene> loaded = load_scene(options.scene, options.path);
+    Result<LoadedScene> loaded = load_scene(options.scene, options.path);
     if (!loaded) return loaded.error();
-    const Scene& scene = loaded->scene;
     progress.say("choosing timing constants");
-    const Result<DrawCosts> costs = costs_of(options, *wanted, *loaded);
-    if (!costs) return costs.error();
+    const Result<std::optional<UserConstants>> constants = constants_of(options, *wanted, *loaded);
+    if (!constants) return constants.error();
     progress.say("building");
+    if (Status status = settle_instances(*loaded, options.scene, options.instances, *constants); !status)
+        return status.error();
+    const Scene& scene = loaded->scene;
+    const DrawCosts costs = *constants ? draw_costs((*constants)->profile, false) : DrawCosts();
     const OctreeOptions octree_options =
-        octree_options_of(options.method, scene, {options.leaf, options.replica_budget, *costs});
+        octree_options_of(options.method, scene, {options.leaf, options.replica_budget, costs, {}});
     const gl::WallTimer build_timer;
     const std::vector<TriangleBatch> batches = scene.triangle_batches();
     const Result<RhOctree> octree = build_octree(batches, octree_options);
@@ -80,6 +86,8 @@ Result<int> run_bake(const BakeOptions& options) {
                scene.static_triangles() + scene.dynamic_triangles(),
                static_cast<double>(scene.vertex_bytes()) / kMebibyte,
                static_cast<double>(scene.index_bytes()) / kMebibyte);
+    if (const std::string line = instancing_text(scene.instancing); !line.empty())
+        fmt::print("  instances   {}\n", line);
     fmt::print(
         "  octree      {} nodes, {} leaves of at most {} triangles, {} replicas of {:.1f} MiB; built in "
         "{:.0f} ms\n",

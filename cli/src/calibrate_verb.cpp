@@ -12,7 +12,9 @@
 #include "picture_size.h"
 #include "profile_store.h"
 #include "progress.h"
+#include "rhview/gl/answer_costs.h"
 #include "rhview/gl/calibration.h"
+#include "rhview/scenes/static_instances.h"
 #include "scene_source.h"
 #include "verbs.h"
 
@@ -77,6 +79,17 @@ std::string ratio_text(const Fit& fit) {
                     : fmt::format("an index costs nothing that was seen, a draw call {:.4g} ns", draw);
 }
 
+void print_answer_costs(const TimingProfile& profile) {
+    if (!profile.answer_costs) return;
+    const auto print = [](const char* way, const AnswerCosts& c) {
+        fmt::print("  {:<20}{:.4g} ns, {:.4g} a box, {:.3g} a pixel, {:.4g} a draw; {:.4g} a frame\n", way,
+                   c.query_ns, c.box_ns, c.pixel_ns, c.draw_ns, c.frame_ns);
+    };
+    fmt::print("\n  to ask whether something is hidden, and hang draws on the answer:\n");
+    print("an occlusion query", profile.answer_costs->hardware);
+    print("in a box pass", profile.answer_costs->box_pass);
+}
+
 void print_calibration(const gl::Calibration& calibration, const gl::DeviceInfo& device,
                        const std::vector<std::string>& subjects) {
     const Fit& fit = calibration.selection.fit;
@@ -100,6 +113,7 @@ void print_calibration(const gl::Calibration& calibration, const gl::DeviceInfo&
             "ns\n",
             calibration.submission->find(Term::DrawCalls)->value_ns,
             calibration.submission->find(Term::Indices)->value_ns);
+    print_answer_costs(calibration.profile);
     fmt::print("\n  models tried (hold-out error):\n");
     for (const Candidate& candidate : calibration.selection.candidates) {
         const std::string error = candidate.hold_out_error
@@ -149,6 +163,8 @@ struct Subjects {
         for (const std::string& name : names) {
             Result<LoadedScene> loaded = load_scene(name);
             if (!loaded) return loaded.error();
+            if (!loaded->baked)
+                if (Status status = settle_instances(loaded->scene, {}); !status) return status;
             scenes.push_back(std::make_unique<LoadedScene>(std::move(loaded).value()));
             Result<gl::SceneBuffers> uploaded = gl::SceneBuffers::upload(scenes.back()->scene);
             if (!uploaded) return uploaded.error();
@@ -201,6 +217,10 @@ Result<int> run_calibrate(const CalibrateOptions& options) {
     Result<gl::Calibration> calibration =
         gl::calibrate(list, context->device(), *executor, *target, calibration_options);
     if (!calibration) return calibration.error();
+    progress.say("timing occlusion queries");
+    const Result<gl::MeasuredAnswerCosts> answers = gl::measure_answer_costs(*target);
+    if (!answers) return answers.error();
+    calibration->profile.answer_costs = answers->costs;
     progress.clear();
 
     calibration->profile.date = today();

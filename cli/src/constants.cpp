@@ -9,15 +9,18 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "profile_store.h"
+#include "rhview/gl/answer_costs.h"
 #include "rhview/gl/calibration.h"
+#include "rhview/scenes/static_instances.h"
 
 namespace rhview::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"c0", "c1", "c3", "query"};
+constexpr std::array<std::string_view, 5> kNames{"c0", "c1", "c3", "query", "box"};
 
 Result<std::pair<std::string, double>> parse_assignment(std::string_view assignment) {
     const std::size_t equals = assignment.find('=');
@@ -30,8 +33,8 @@ Result<std::pair<std::string, double>> parse_assignment(std::string_view assignm
         return Error{fmt::format(
             "--set {}: write name=value with a value of 0 or more nanoseconds, as in c1=0.25", assignment)};
     if (std::ranges::find(kNames, name) == kNames.end())
-        return Error{
-            fmt::format("--set {}: unknown constant; the constants are c0, c1, c3 and query", assignment)};
+        return Error{fmt::format("--set {}: unknown constant; the constants are c0, c1, c3, query and box",
+                                 assignment)};
     return std::pair(name, value);
 }
 
@@ -60,10 +63,17 @@ Result<ChosenConstants> calibrate_quickly(const SceneAndPath& loaded, const gl::
     if (!target) return Error{"--size: " + target.error().message};
     Result<gl::Executor> executor = gl::Executor::create();
     if (!executor) return executor.error();
-    Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(loaded.scene);
+    // Instances are not settled before prices are known: flattened by the default ones meanwhile.
+    std::optional<Scene> flattened;
+    if (!loaded.scene.static_instances.empty()) {
+        flattened.emplace(loaded.scene);
+        if (Status status = settle_instances(*flattened, {}); !status) return status.error();
+    }
+    const Scene& scene = flattened ? *flattened : loaded.scene;
+    Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(scene);
     if (!buffers) return buffers.error();
-    const gl::CalibrationSubject subject{&loaded.scene,         &*buffers,          {},
-                                         loaded.path.fov_y_deg, loaded.path.near_m, loaded.path.far_m};
+    const gl::CalibrationSubject subject{
+        &scene, &*buffers, {}, loaded.path.fov_y_deg, loaded.path.near_m, loaded.path.far_m};
     const ClipDepth clip_depth =
         device.clip_control ? ClipDepth::ReversedZeroToOne : ClipDepth::NegativeOneToOne;
     Result<gl::Calibration> calibration =
@@ -73,6 +83,10 @@ Result<ChosenConstants> calibrate_quickly(const SceneAndPath& loaded, const gl::
         chosen.why_not = calibration.error().message;
         return chosen;
     }
+    const Result<gl::MeasuredAnswerCosts> answers =
+        gl::measure_answer_costs(*target, {.longest_s = kQuickAnswersS});
+    if (!answers) return answers.error();
+    calibration->profile.answer_costs = answers->costs;
     chosen.constants = {calibration->profile, "quick",
                         fmt::format("calibrated quickly with this scene in {:.1f} s (rhview calibrate "
                                     "measures better, and once)",
@@ -139,6 +153,19 @@ Result<ChosenConstants> choose_constants(const WantedConstants& wanted, const st
         chosen.constants->told += chosen.constants->told.empty() ? "as set" : ", changed by --set";
     }
     return chosen;
+}
+
+std::optional<QueryCosts> query_costs(const WantedConstants& wanted, const UserConstants& constants) {
+    std::optional<QueryCosts> costs = constants.profile.answer_costs;
+    const double never = std::numeric_limits<double>::infinity();
+    for (const auto& [name, value] : wanted.set) {
+        if (name != "query" && name != "box") continue;
+        if (!costs) costs = QueryCosts{{.query_ns = never}, {.query_ns = never}};
+        const double draw_ns = constants.profile.c3_ns + constants.profile.sub_draw_ns.value_or(0.0);
+        AnswerCosts& way = name == "query" ? costs->hardware : costs->box_pass;
+        way = {.query_ns = value, .draw_ns = draw_ns};
+    }
+    return costs;
 }
 
 DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw) {

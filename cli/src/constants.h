@@ -20,7 +20,7 @@ namespace rhview::cli {
 struct WantedConstants {
     std::optional<TimingProfile> profile;
     std::filesystem::path file;
-    std::vector<std::pair<std::string, double>> set;  ///< c0, c1, c3 or query, and its value in ns
+    std::vector<std::pair<std::string, double>> set;  ///< c0, c1, c3, query or box, and its value in ns
 
     /// c1 and c3 are named: no machine needs to be measured.
     [[nodiscard]] bool are_complete() const;
@@ -49,6 +49,14 @@ struct ChosenConstants {
 Result<ChosenConstants> choose_constants(const WantedConstants& wanted, const std::string& scene_spec,
                                          const SceneAndPath& loaded, const gl::DeviceInfo& device, int width,
                                          int height);
+
+/// Of timing, where what asking costs is measured in passing.
+inline constexpr double kQuickAnswersS = 0.4;
+
+/// What asking about hidden things costs by these constants; absent where they do not say. With `--set`,
+/// `query` is a hardware query and `box` a box of the box pass, either with a draw for each conditional one;
+/// what is not set is never used.
+std::optional<QueryCosts> query_costs(const WantedConstants& wanted, const UserConstants& constants);
 
 /// What a range costs: a call of its own, or a part of its batch's multi-draw.
 DrawCosts draw_costs(const TimingProfile& profile, bool multi_draw);

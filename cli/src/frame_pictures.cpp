@@ -17,16 +17,21 @@ constexpr glm::vec3 kPaper(0.96f, 0.96f, 0.94f);
 constexpr glm::vec3 kNotDrawn(0.30f, 0.31f, 0.33f);
 constexpr glm::vec3 kBridged(0.70f, 0.10f, 0.85f);
 constexpr glm::vec3 kBoxes(0.10f, 0.25f, 0.75f);
+constexpr glm::vec3 kSeen(0.0f, 0.62f, 0.20f);
+constexpr glm::vec3 kHidden(0.90f, 0.10f, 0.10f);
 constexpr glm::vec3 kFrustum(0.85f, 0.0f, 0.25f);
 
-/// Looks straight down on all of `bounds`, north (-z) up.
-View view_from_above(const Aabb& bounds, const glm::dvec3& origin, double aspect, ClipDepth clip_depth) {
+/// Looks straight down on all of `bounds`, north (-z) up. What is higher than a viewer within the scene is
+/// cut off: a ceiling would hide all that matters.
+View view_from_above(const Aabb& bounds, const glm::dvec3& origin, double aspect, const View& viewer) {
     const glm::dvec3 extent = glm::max(glm::dvec3(bounds.extent()), glm::dvec3(1e-3));
     const glm::dvec3 centre = origin + glm::dvec3(bounds.centre());
     const double height = kMargin * std::max(extent.z, extent.x / aspect);
     const glm::dvec3 eye(centre.x, origin.y + static_cast<double>(bounds.max.y) + 0.1 * extent.y, centre.z);
     return {look_along(eye, {0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}),
-            orthographic(height * aspect, height, 0.0, 1.2 * extent.y, clip_depth), clip_depth};
+            orthographic(height * aspect, height, std::clamp(eye.y - viewer.eye().y, 0.0, 1.1 * extent.y),
+                         1.2 * extent.y, viewer.clip_depth),
+            viewer.clip_depth};
 }
 
 /// Colour of the n-th call: neighbours differ, replicas never look like base ranges.
@@ -50,6 +55,19 @@ void append_gaps(const DrawRange& drawn, std::span<const DrawRange> to_show, std
     if (next < end) gaps.push_back({drawn.batch, next, end - next});
 }
 
+/// The boxes of the plan's queries that saw something, or nothing.
+gl::Lines boxes_answered(const FramePlan& plan, std::span<const QueryAnswer> answers, bool visible,
+                         const glm::dvec3& origin) {
+    gl::Lines lines;
+    for (const PlannedQuery& query : plan.queries) {
+        const auto answer = std::ranges::find(answers, query.ticket, &QueryAnswer::ticket);
+        if ((answer == answers.end() || answer->visible) != visible) continue;
+        for (std::uint32_t box = query.first_box; box < query.first_box + query.box_count; ++box)
+            lines.add_box(plan.query_boxes[box], origin);
+    }
+    return lines;
+}
+
 }  // namespace
 
 ViewFromAbove::ViewFromAbove(gl::RenderTarget target, gl::LineDrawer lines)
@@ -64,11 +82,11 @@ Result<ViewFromAbove> ViewFromAbove::create(int width, int height) {
 }
 
 gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& plan,
-                                std::span<const DrawRange> to_show, const FramePlanner& planner,
-                                const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
-                                gl::Executor& executor) {
+                                std::span<const QueryAnswer> answers, std::span<const DrawRange> to_show,
+                                const FramePlanner& planner, const gl::SceneBuffers& buffers,
+                                const Aabb& bounds, const View& view, gl::Executor& executor) {
     const double aspect = static_cast<double>(target_.width()) / target_.height();
-    const View above = view_from_above(bounds, buffers.origin(), aspect, view.clip_depth);
+    const View above = view_from_above(bounds, buffers.origin(), aspect, view);
     target_.begin(view.clip_depth, kPaper);
     executor.draw(everything, buffers, above, {gl::Submission::MultiDraw, kNotDrawn});
     std::uint64_t base_indices = 0;
@@ -83,12 +101,28 @@ gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& pl
         if (!replica && !sorted.empty()) append_gaps(plan.opaque[call], sorted, gaps.opaque);
     }
     executor.draw(gaps, buffers, above, {gl::Submission::MultiDraw, kBridged});
+    const auto is_hidden = [&](std::uint32_t query) {
+        const auto answer = std::ranges::find(answers, plan.queries[query].ticket, &QueryAnswer::ticket);
+        return answer != answers.end() && !answer->visible;
+    };
     FramePlan objects;
     objects.objects = plan.objects;
+    for (const ConditionalObject& object : plan.conditional_objects)
+        if (!is_hidden(object.query)) objects.objects.push_back(object.object);
+    for (std::size_t i = 0; i < plan.conditional.size(); ++i) {
+        if (is_hidden(plan.conditional[i].query)) continue;
+        one.opaque.assign(1, plan.conditional[i].range);
+        executor.draw(one, buffers, above,
+                      {gl::Submission::Plain, call_colour(plan.opaque.size() + i, false)});
+    }
     executor.draw(objects, buffers, above, {gl::Submission::Plain, call_colour(0, false)});
     gl::Lines boxes;
-    for (const std::uint32_t chosen : plan.chosen) boxes.add_box(planner.bounds_of(chosen), buffers.origin());
+    if (plan.queries.empty())
+        for (const std::uint32_t chosen : plan.chosen)
+            boxes.add_box(planner.bounds_of(chosen), buffers.origin());
     lines_.draw(boxes, above, kBoxes);
+    lines_.draw(boxes_answered(plan, answers, false, buffers.origin()), above, kHidden);
+    lines_.draw(boxes_answered(plan, answers, true, buffers.origin()), above, kSeen);
     gl::Lines frustum;
     frustum.add_frustum(view, static_cast<double>(glm::length(bounds.extent())));
     lines_.draw(frustum, above, kFrustum);

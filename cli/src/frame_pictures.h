@@ -22,9 +22,10 @@ class ViewFromAbove {
     /// `everything` and `plan` are for the same buffers; `bounds` is the scene's, relative to the buffers'
     /// origin. `to_show` is what `plan` must show: the rest of its base ranges are bridged gaps; empty:
     /// nothing is known of gaps.
-    gl::Picture draw(const FramePlan& everything, const FramePlan& plan, std::span<const DrawRange> to_show,
-                     const FramePlanner& planner, const gl::SceneBuffers& buffers, const Aabb& bounds,
-                     const View& view, gl::Executor& executor);
+    gl::Picture draw(const FramePlan& everything, const FramePlan& plan, std::span<const QueryAnswer> answers,
+                     std::span<const DrawRange> to_show, const FramePlanner& planner,
+                     const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
+                     gl::Executor& executor);
 
   private:
     ViewFromAbove(gl::RenderTarget target, gl::LineDrawer lines);

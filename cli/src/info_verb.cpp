@@ -7,6 +7,7 @@
 
 #include "output_file.h"
 #include "progress.h"
+#include "rhview/scenes/static_instances.h"
 #include "scene_source.h"
 #include "verbs.h"
 
@@ -47,6 +48,10 @@ Json to_json(const LoadedScene& loaded) {
             {"triangles", scene.static_triangles() + scene.dynamic_triangles()},
             {"static_triangles", scene.static_triangles()},
             {"static_objects", scene.static_objects()},
+            {"static_instances", scene.static_instances.size()},
+            {"instance_triangles", scene.instance_triangles()},
+            {"meshes", scene.meshes.size()},
+            {"stored_triangles", scene.index_bytes() / (3 * sizeof(std::uint32_t))},
             {"dynamic_objects", scene.dynamic_objects.size()},
             {"dynamic_triangles", scene.dynamic_triangles()},
             {"vertices", scene.vertex_count()},
@@ -96,6 +101,11 @@ void print(const LoadedScene& loaded) {
     if (!scene.dynamic_objects.empty())
         fmt::print(", {} placed by {} dynamic objects", grouped(scene.dynamic_triangles()),
                    grouped(scene.dynamic_objects.size()));
+    if (!scene.static_instances.empty())
+        fmt::print("\n  instances   {} of the objects place {} meshes: {} triangles, {} stored in all",
+                   grouped(scene.static_instances.size()), grouped(repeated_meshes(scene).size()),
+                   grouped(scene.instance_triangles()),
+                   grouped(scene.index_bytes() / (3 * sizeof(std::uint32_t))));
     fmt::print("\n  vertices    {} ({} MiB), indices {} MiB\n", grouped(scene.vertex_count()),
                scene.vertex_bytes() >> 20, scene.index_bytes() >> 20);
     fmt::print("  materials   {} ({} two-sided, {} alpha-tested) in {} batches\n", scene.materials.size(),

@@ -48,6 +48,18 @@ void add_octree_options(CLI::App& verb, std::optional<std::uint32_t>& leaf, doub
         ->capture_default_str();
 }
 
+void add_instance_options(CLI::App& verb, InstancesWanted& wanted) {
+    verb.add_option("--instances", wanted.policy,
+                    "Meshes that a file places repeatedly: auto (flattened where the model says that it "
+                    "pays), flatten, keep")
+        ->type_name("HOW")
+        ->capture_default_str();
+    verb.add_option("--instance-budget", wanted.budget_mib,
+                    "MiB that flattened instances may take with --instances auto; default: 1024")
+        ->type_name("MIB")
+        ->check(CLI::Range(0.0, 1e6));
+}
+
 void add_calibrate(CLI::App& app, CalibrateOptions& options) {
     CLI::App* calibrate =
         app.add_subcommand("calibrate", "Fit the timing constants of this machine, in 20 seconds at most");
@@ -65,7 +77,14 @@ void add_walk(CLI::App& app, WalkOptions& options) {
     walk->add_option("--method", options.method, fmt::format("{}", fmt::join(method_names(), ", ")))
         ->type_name("M")
         ->capture_default_str();
-    walk->add_option("--mode", options.mode, "exact: everything is proved in the same frame")
+    walk->add_option("--mode", options.mode,
+                     "exact: what is left out is proved hidden in the same frame; latent: earlier frames' "
+                     "answers are trusted")
+        ->capture_default_str();
+    walk->add_option("--occlusion", options.occlusion,
+                     "Ask the device what is hidden: auto (either way, where it pays), hardware (queries "
+                     "only), boxes (box pass only), off")
+        ->type_name("W")
         ->capture_default_str();
     walk->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
         ->type_name("FILE");
@@ -73,8 +92,10 @@ void add_walk(CLI::App& app, WalkOptions& options) {
             "--profile", options.profile,
             "Timing constants (rhview.profile/1); else those that calibrate saved, else measured quickly")
         ->type_name("FILE");
-    walk->add_option("--set", options.set,
-                     "Timing constants in ns: c0, c1 per index, c3 per draw call, query")
+    walk->add_option(
+            "--set", options.set,
+            "Timing constants in ns: c0, c1 per index, c3 per draw call, query (an occlusion query), "
+            "box (one of the box pass)")
         ->type_name("c1=…,c3=…");
     walk->add_option("--frames", options.frames, "Frames to measure")
         ->check(CLI::Range(1, 1'000'000))
@@ -87,6 +108,7 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->capture_default_str();
     walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
     add_octree_options(*walk, options.leaf, options.replica_budget);
+    add_instance_options(*walk, options.instances);
     walk->add_option("--submission", options.submission,
                      "plain: a call per range; multi: a multi-draw per batch")
         ->capture_default_str();
@@ -95,6 +117,8 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000))
         ->each([&options](const std::string&) { options.check = true; });
+    walk->add_flag("--visible-set", options.visible_set,
+                   "Count the indices of the octree's leaves that show a pixel, by an item buffer");
     walk->add_option(
             "--freeze-culling", options.freeze_culling,
             "From this frame on, cull for its camera while the picture's goes on: shows what is left out")
@@ -116,6 +140,7 @@ void add_bake(CLI::App& app, BakeOptions& options) {
         ->type_name("M")
         ->capture_default_str();
     add_octree_options(*bake, options.leaf, options.replica_budget);
+    add_instance_options(*bake, options.instances);
     bake->add_option(
             "--profile", options.profile,
             "Timing constants (rhview.profile/1) that leaves and replicas are chosen by; default: this "

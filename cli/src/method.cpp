@@ -25,13 +25,19 @@ std::vector<StaticObject> static_objects(const Scene& scene) {
     return objects;
 }
 
+/// With the paper's rule for what is asked about.
+OcclusionOptions papers(OcclusionOptions options) {
+    options.settings.policy = OcclusionPolicy::Paper;
+    return options;
+}
+
 }  // namespace
 
 // The rivals' octree is the paper's: leaves in source order, no replicas.
 OctreeOptions octree_options_of(std::string_view method, const Scene& scene, const MethodOptions& options) {
     OctreeOptions result;
     if (method == "rhview") {
-        result = choose_octree_options(options.costs, 3 * scene.static_triangles(), scene.batches.size());
+        result = choose_octree_options(options.costs, 3 * scene.batch_triangles(), scene.batches.size());
         result.replica_budget = options.replica_budget;
     } else {
         result.normal_order = false;
@@ -80,10 +86,14 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
     }
     if (method == "octree")
         prepared.planner = std::make_unique<OctreeLeaves>(*prepared.octree);
+    else if (method == "rhview-seed" && options.occlusion)
+        prepared.planner =
+            std::make_unique<SeedPlanner>(*prepared.octree, options.costs, papers(*options.occlusion));
     else if (method == "rhview-seed")
         prepared.planner = std::make_unique<SeedPlanner>(*prepared.octree);
     else
-        prepared.planner = std::make_unique<RhviewPlanner>(*prepared.octree, options.costs);
+        prepared.planner =
+            std::make_unique<RhviewPlanner>(*prepared.octree, options.costs, options.occlusion);
     return prepared;
 }
 

@@ -12,6 +12,7 @@
 
 #include "rhview/base/result.h"
 #include "rhview/pipeline/frame_planner.h"
+#include "rhview/pipeline/node_visibility.h"
 #include "rhview/rhoctree/baked_octree.h"
 #include "rhview/scenes/scene.h"
 
@@ -36,6 +37,7 @@ struct MethodOptions {
     std::optional<std::uint32_t> max_leaf_triangles;  ///< `rhview`: chosen from the costs; else 4096
     double replica_budget = 1.0;                      ///< of `rhview`, times the source's index bytes
     DrawCosts costs;                                  ///< what `rhview` plans by
+    std::optional<OcclusionOptions> occlusion;        ///< of `rhview` and `rhview-seed`; absent: asks nothing
 };
 
 /// What `method` has its octree built with.

@@ -57,7 +57,7 @@ Result<LoadedScene> load_scene(const std::string& spec) {
         return LoadedScene{std::move(scene).value(), {}};
     }
     if (is_baked_name(spec)) return load_baked(spec);
-    Result<Scene> scene = import_scene(spec);
+    Result<Scene> scene = import_scene(spec, RepeatedMeshes::Keep);
     if (!scene) return scene.error();
     CameraPath path = walkthrough_of_scene(*scene);
     return LoadedScene{{std::move(scene).value(), std::move(path)}, {}};

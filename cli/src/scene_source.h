@@ -25,7 +25,7 @@ struct LoadedScene : SceneAndPath {
 };
 
 /// SCENE as the user names it: a named scene with parameters, or a file, baked ones too; with the path that
-/// walks it.
+/// walks it. Meshes that a file places repeatedly come as static instances.
 Result<LoadedScene> load_scene(const std::string& spec);
 /// The same, walked along the path of `camera_path` where there is one; that file is read first.
 Result<LoadedScene> load_scene(const std::string& spec,

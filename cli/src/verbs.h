@@ -28,10 +28,17 @@ struct CalibrateOptions {
     std::optional<std::filesystem::path> csv;
 };
 
+/// What becomes of meshes that the scene places repeatedly.
+struct InstancesWanted {
+    std::string policy = "auto";
+    std::optional<double> budget_mib;  ///< of flattened placements; else the library's
+};
+
 struct WalkOptions {
     std::string scene;
     std::string method = "rhview";
     std::string mode = "exact";
+    std::string occlusion = "auto";
     std::string submission = "plain";
     std::string size = "1280x720";
     std::optional<std::filesystem::path> path;
@@ -42,8 +49,10 @@ struct WalkOptions {
     int repeats = 1;
     std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
     double replica_budget = 1.0;
+    InstancesWanted instances;
     bool check = false;
     int check_every = 1;
+    bool visible_set = false;
     int images_every = 30;
     std::optional<int> freeze_culling;
     std::optional<std::filesystem::path> json;
@@ -57,6 +66,7 @@ struct BakeOptions {
     std::string method = "rhview";
     std::optional<std::uint32_t> leaf;
     double replica_budget = 1.0;
+    InstancesWanted instances;
     std::optional<std::filesystem::path> profile;
     std::string set;
     std::optional<std::filesystem::path> path;

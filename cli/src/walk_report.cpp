@@ -89,14 +89,75 @@ Json profile_json(const std::optional<WalkReport::Profile>& profile) {
     return json;
 }
 
+/// Statistics of a field of the occlusion records; null where there are none.
+template <class Field>
+Json occlusion_statistics(const WalkReport& report, Field field) {
+    if (!report.has_occlusion()) return nullptr;
+    return statistics(
+        report, [&](const FrameRecord& f) { return field(f.occlusion.value_or(OcclusionRecord{}), f); });
+}
+
+double share(double part, double whole) {
+    return whole > 0.0 ? part / whole : 0.0;
+}
+
+constexpr auto kHiddenFraction = [](const OcclusionRecord& o, const FrameRecord& f) {
+    return share(static_cast<double>(o.hidden), f.work.queries);
+};
+constexpr auto kExplorationShare = [](const OcclusionRecord& o, const FrameRecord& f) {
+    return share(o.exploration_ms, f.predicted_ms.value_or(0.0));
+};
+
+void add_occlusion(const WalkReport& report, Json& summary) {
+    const auto add = [&](const char* name, auto field) {
+        summary[name] = occlusion_statistics(report, field);
+    };
+    add("query_boxes", [](const OcclusionRecord& o, const FrameRecord&) { return o.boxes; });
+    add("box_pass_queries", [](const OcclusionRecord& o, const FrameRecord&) { return o.box_pass_queries; });
+    add("conditional_draws",
+        [](const OcclusionRecord& o, const FrameRecord&) { return o.conditional_draws; });
+    add("conditional_ranges",
+        [](const OcclusionRecord& o, const FrameRecord&) { return o.conditional_ranges; });
+    add("executed_ranges", [](const OcclusionRecord& o, const FrameRecord&) { return o.executed_ranges; });
+    add("skipped_indices", [](const OcclusionRecord& o, const FrameRecord&) { return o.skipped_indices; });
+    add("hidden_fraction", kHiddenFraction);
+    add("exploration_share", kExplorationShare);
+    add("query_predicted_ms", [](const OcclusionRecord& o, const FrameRecord&) { return o.query_ms; });
+    add("saved_predicted_ms", [](const OcclusionRecord& o, const FrameRecord&) { return o.saved_ms; });
+    summary["blocking_reads"] = report.has_occlusion() ? Json(report.blocking_reads) : Json(nullptr);
+    summary["lost_queries"] = report.has_occlusion() ? Json(report.lost_queries) : Json(nullptr);
+}
+
+Json instancing_json(const WalkReport& report) {
+    const InstancingReport& r = report.build.instancing;
+    return {{"flattened_meshes", r.flattened_meshes},
+            {"flattened_placements", r.flattened_placements},
+            {"flattened_bytes", r.flattened_bytes},
+            {"kept_meshes", r.kept_meshes},
+            {"kept_placements", r.kept_placements},
+            {"kept_bytes", r.kept_bytes},
+            {"all_flattened_bytes", r.all_flattened_bytes},
+            {"budget_bytes", r.budget_bytes},
+            {"all_kept_ns", r.all_kept_ns},
+            {"all_flattened_ns", r.all_flattened_ns},
+            {"chosen_ns", r.chosen_ns},
+            {"ms", or_null(report.build.settle_ms)}};
+}
+
 Json summary_json(const WalkReport& report) {
     const bool has_gpu = !report.frames.empty() && report.frames.front().gpu_ms.has_value();
     const bool has_objects = report.scene.dynamic_objects > 0;
+    const bool has_instances = report.scene.static_instances > 0;
     Json summary;
     summary["draw_calls"] = statistics(report, [](const FrameRecord& f) { return f.work.draw_calls; });
     summary["sub_draws"] = statistics(report, [](const FrameRecord& f) { return f.work.sub_draws; });
     summary["indices"] = statistics(report, [](const FrameRecord& f) { return f.work.indices; });
     summary["queries"] = statistics(report, [](const FrameRecord& f) { return f.work.queries; });
+    add_occlusion(report, summary);
+    const bool has_set = !report.frames.empty() && report.frames.front().visible_set_indices.has_value();
+    summary["visible_set_indices"] =
+        has_set ? statistics(report, [](const FrameRecord& f) { return f.visible_set_indices.value_or(0); })
+                : Json(nullptr);
     summary["nodes_visited"] = statistics(report, [](const FrameRecord& f) { return f.nodes_visited; });
     summary["cull_ms"] = statistics(report, [](const FrameRecord& f) { return f.cull_ms; });
     summary["frame_ms"] = statistics(report, [](const FrameRecord& f) { return f.frame_ms; });
@@ -112,6 +173,9 @@ Json summary_json(const WalkReport& report) {
     summary["visible_objects"] =
         has_objects ? statistics(report, [](const FrameRecord& f) { return f.visible_objects; })
                     : Json(nullptr);
+    summary["visible_instances"] =
+        has_instances ? statistics(report, [](const FrameRecord& f) { return f.visible_instances; })
+                      : Json(nullptr);
     summary["lod_error_px"] = nullptr;
     summary["missing_pixels"] = missing_pixels_json(report);
     summary["plan_hash"] = fmt::format("{:016x}", report.plan_hash);
@@ -135,7 +199,26 @@ std::string timing_line(const WalkReport& report) {
         constants.c3_ns + constants.sub_draw_ns.value_or(0.0), report.profile->told);
 }
 
+Json occlusion_json(const std::optional<OcclusionRecord>& o) {
+    if (!o) return nullptr;
+    return {{"candidates", o->candidates},
+            {"boxes", o->boxes},
+            {"hidden", o->hidden},
+            {"box_pass_queries", o->box_pass_queries},
+            {"conditional_draws", o->conditional_draws},
+            {"conditional_ranges", o->conditional_ranges},
+            {"executed_ranges", o->executed_ranges},
+            {"skipped_indices", o->skipped_indices},
+            {"query_ms", o->query_ms},
+            {"exploration_ms", o->exploration_ms},
+            {"saved_ms", o->saved_ms}};
+}
+
 }  // namespace
+
+bool WalkReport::has_occlusion() const {
+    return !frames.empty() && frames.front().occlusion.has_value();
+}
 
 int WalkReport::checked_frames() const {
     return static_cast<int>(
@@ -148,6 +231,19 @@ std::uint64_t WalkReport::missing_pixels() const {
     return total;
 }
 
+std::string instancing_text(const InstancingReport& report) {
+    if (report.flattened_meshes + report.kept_meshes == 0) return "";
+    constexpr double kMebibyte = 1024.0 * 1024.0;
+    const auto mebibytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / kMebibyte; };
+    return fmt::format(
+        "{} meshes flattened to {} objects of {:.1f} MiB, {} kept for {} of {:.1f} MiB; all flattened: "
+        "{:.1f} "
+        "MiB\n  by the model, ns a frame: {:.4g}; all kept {:.4g}, all flattened {:.4g}",
+        report.flattened_meshes, report.flattened_placements, mebibytes(report.flattened_bytes),
+        report.kept_meshes, report.kept_placements, mebibytes(report.kept_bytes),
+        mebibytes(report.all_flattened_bytes), report.chosen_ns, report.all_kept_ns, report.all_flattened_ns);
+}
+
 std::string to_json(const WalkReport& report) {
     Json json;
     json["schema"] = "rhview.walk/1";
@@ -156,6 +252,8 @@ std::string to_json(const WalkReport& report) {
                      {"static_triangles", report.scene.static_triangles},
                      {"dynamic_objects", report.scene.dynamic_objects},
                      {"dynamic_triangles", report.scene.dynamic_triangles},
+                     {"static_instances", report.scene.static_instances},
+                     {"instance_triangles", report.scene.instance_triangles},
                      {"materials", report.scene.materials}};
     json["device"] = {{"renderer", report.device.renderer},
                       {"version", report.device.version},
@@ -164,6 +262,7 @@ std::string to_json(const WalkReport& report) {
     json["method"] = report.method;
     json["mode"] = report.mode;
     json["submission"] = report.submission;
+    json["occlusion"] = report.occlusion;
     json["leaf"] = or_null(report.leaf);
     json["frames"] = report.frames.size();
     json["size"] = {report.width, report.height};
@@ -172,6 +271,7 @@ std::string to_json(const WalkReport& report) {
                      {"nodes", or_null(report.build.nodes)},
                      {"leaves", or_null(report.build.leaves)},
                      {"replicas", or_null(report.build.replicas)},
+                     {"instancing", instancing_json(report)},
                      {"replica_bytes", report.build.replica_bytes},
                      {"index_bytes", report.build.index_bytes},
                      {"vertex_bytes", report.build.vertex_bytes}};
@@ -187,12 +287,14 @@ std::string to_json(const WalkReport& report) {
                                      {"fragments", count(f.work.fragments)},
                                      {"passed_samples", count(f.work.passed_samples)},
                                      {"queries", count(f.work.queries)},
+                                     {"occlusion", occlusion_json(f.occlusion)},
                                      {"nodes_visited", f.nodes_visited},
                                      {"cull_ms", f.cull_ms},
                                      {"frame_ms", f.frame_ms},
                                      {"gpu_ms", or_null(f.gpu_ms)},
                                      {"predicted_ms", or_null(f.predicted_ms)},
                                      {"running_predicted_ms", or_null(f.running_predicted_ms)},
+                                     {"visible_set_indices", or_null(f.visible_set_indices)},
                                      {"missing_pixels", or_null(f.missing_pixels)}});
     // A file name need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -219,6 +321,8 @@ std::string to_table(const WalkReport& report) {
         report.scene.materials, report.scene.materials == 1 ? "" : "s",
         report.scene.dynamic_objects > 0 ? fmt::format(", {} dynamic objects", report.scene.dynamic_objects)
                                          : "");
+    if (const std::string line = instancing_text(report.build.instancing); !line.empty())
+        table += "instances: " + line + "\n";
     if (report.build.nodes)
         table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, {} in {:.0f} ms\n",
                              *report.build.nodes, *report.build.leaves, report.leaf.value_or(0),
@@ -239,9 +343,27 @@ std::string to_table(const WalkReport& report) {
     if (report.submission != "plain")
         row("sub-draws", 1, [](const FrameRecord& f) { return f.work.sub_draws; });
     row("indices", 0, [](const FrameRecord& f) { return f.work.indices; });
+    if (!report.frames.empty() && report.frames.front().visible_set_indices)
+        row("of visible leaves", 0, [](const FrameRecord& f) { return f.visible_set_indices.value_or(0); });
+    if (report.has_occlusion()) {
+        const auto of = [&](const char* name, int decimals, auto field) {
+            row(name, decimals,
+                [&](const FrameRecord& f) { return field(f.occlusion.value_or(OcclusionRecord{}), f); });
+        };
+        row("queries", 1, [](const FrameRecord& f) { return f.work.queries; });
+        of("hidden, %", 1,
+           [](const OcclusionRecord& o, const FrameRecord& f) { return 100.0 * kHiddenFraction(o, f); });
+        of("ranges skipped", 1, [](const OcclusionRecord& o, const FrameRecord&) {
+            return o.conditional_ranges - o.executed_ranges;
+        });
+        of("indices skipped", 0,
+           [](const OcclusionRecord& o, const FrameRecord&) { return o.skipped_indices; });
+    }
     row("nodes visited", 0, [](const FrameRecord& f) { return f.nodes_visited; });
     if (report.scene.dynamic_objects > 0)
         row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
+    if (report.scene.static_instances > 0)
+        row("instances", 1, [](const FrameRecord& f) { return f.visible_instances; });
     row("cull ms", 3, [](const FrameRecord& f) { return f.cull_ms; });
     row("frame ms", 2, [](const FrameRecord& f) { return f.frame_ms; });
     if (report.profile)
@@ -250,9 +372,14 @@ std::string to_table(const WalkReport& report) {
         row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
     table +=
         fmt::format("\n  everything: {} draw calls, {} indices; plan hash {:016x}\n",
-                    report.scene.batches + report.scene.dynamic_objects,
+                    report.scene.batches + report.scene.dynamic_objects + report.scene.static_instances,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
     table += timing_line(report);
+    if (report.has_occlusion())
+        table += fmt::format("  occlusion: {} answers waited for, {} lost\n", report.blocking_reads,
+                             report.lost_queries);
+    else if (!report.why_no_occlusion.empty())
+        table += fmt::format("  no occlusion culling: {}\n", report.why_no_occlusion);
     if (const int checked = report.checked_frames(); checked > 0)
         table += fmt::format("  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
                              checked == 1 ? "" : "s");

@@ -8,21 +8,40 @@
 #include <string>
 #include <vector>
 
+#include "rhview/scenes/scene.h"
 #include "rhview/timing_model/profile.h"
 
 namespace rhview::cli {
+
+/// What occlusion culling did in one frame.
+struct OcclusionRecord {
+    std::uint64_t candidates = 0;  ///< nodes and objects in the frustum that were decided about
+    std::uint64_t boxes = 0;       ///< asked with
+    std::uint64_t hidden = 0;      ///< queries whose answer was that nothing is seen
+    std::uint64_t box_pass_queries = 0;
+    std::uint64_t conditional_draws = 0;   ///< calls
+    std::uint64_t conditional_ranges = 0;  ///< in those
+    std::uint64_t executed_ranges = 0;     ///< of those, by the answers
+    std::uint64_t skipped_indices = 0;     ///< of the others
+    double query_ms = 0.0;                 ///< what asking costs by the model
+    double exploration_ms = 0.0;
+    double saved_ms = 0.0;
+};
 
 /// What was counted and measured in one frame; absent is what was not measured.
 struct FrameRecord {
     int frame = 0;
     Work work;
     std::uint64_t nodes_visited = 0;
-    std::uint64_t visible_objects = 0;
+    std::uint64_t visible_objects = 0;    ///< dynamic ones
+    std::uint64_t visible_instances = 0;  ///< static ones
     double cull_ms = 0.0;
     double frame_ms = 0.0;
     std::optional<double> gpu_ms;
     std::optional<double> predicted_ms;
     std::optional<double> running_predicted_ms;  ///< with constants that follow the frames before
+    std::optional<OcclusionRecord> occlusion;
+    std::optional<std::uint64_t> visible_set_indices;  ///< of the leaves that show a pixel
     std::optional<std::uint64_t> missing_pixels;
 };
 
@@ -35,6 +54,8 @@ struct WalkReport {
         std::uint64_t dynamic_triangles = 0;
         std::uint64_t materials = 0;
         std::uint64_t batches = 0;
+        std::uint64_t static_instances = 0;
+        std::uint64_t instance_triangles = 0;
     } scene;
     struct {
         std::string renderer;
@@ -47,6 +68,8 @@ struct WalkReport {
         std::optional<std::uint64_t> nodes;
         std::optional<std::uint64_t> leaves;
         std::optional<std::uint64_t> replicas;
+        InstancingReport instancing;
+        std::optional<double> settle_ms;  ///< to choose and flatten instances; of a baked file, none
         std::uint64_t replica_bytes = 0;
         std::uint64_t index_bytes = 0;
         std::uint64_t vertex_bytes = 0;
@@ -58,6 +81,10 @@ struct WalkReport {
     };
     std::optional<Profile> profile;
     std::string why_no_profile;
+    std::string occlusion;             ///< "auto", "hardware", "boxes" or "off"
+    std::string why_no_occlusion;      ///< where it was wanted and could not be
+    std::uint64_t blocking_reads = 0;  ///< of answers, in the whole walk
+    std::uint64_t lost_queries = 0;
     std::string method;
     std::string mode;
     std::string submission;
@@ -67,12 +94,15 @@ struct WalkReport {
     std::vector<FrameRecord> frames;
     std::uint64_t plan_hash = 0;
 
+    [[nodiscard]] bool has_occlusion() const;
     [[nodiscard]] int checked_frames() const;
     [[nodiscard]] std::uint64_t missing_pixels() const;
 };
 
 std::string to_json(const WalkReport& report);
 std::string to_csv(const WalkReport& report);
+/// What became of instances, for people; empty where the scene places no mesh twice.
+std::string instancing_text(const InstancingReport& report);
 /// For people.
 std::string to_table(const WalkReport& report);
 

@@ -10,8 +10,10 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
+#include "box_pass.h"
 #include "rhview/base/log.h"
 #include "state_guard.h"
 
@@ -52,7 +54,8 @@ std::vector<Candidate> headless_displays() {
     return candidates;
 }
 
-EGLContext create_context(EGLDisplay display, int version, bool debug) {
+/// `told`: a reset of the device is told (`check_device`).
+EGLContext create_context(EGLDisplay display, int version, bool debug, bool told) {
     EGLConfig config = EGL_NO_CONFIG_KHR;
     if (!epoxy_has_egl_extension(display, "EGL_KHR_no_config_context")) {
         const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
@@ -66,6 +69,9 @@ EGLContext create_context(EGLDisplay display, int version, bool debug) {
                       EGL_CONTEXT_MINOR_VERSION,       version % 10,
                       EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
         if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+        if (told)
+            attributes.insert(attributes.end(),
+                              {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
     }
     attributes.push_back(EGL_NONE);
     return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
@@ -87,6 +93,10 @@ std::string gl_text(GLenum name) {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
+bool has_reset_status() {
+    return epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
+}
+
 DeviceInfo describe_device() {
     DeviceInfo info;
     info.renderer = gl_text(GL_RENDERER);
@@ -94,6 +104,10 @@ DeviceInfo describe_device() {
     for (const char* software : {"llvmpipe", "softpipe", "swrast", "SWR", "SwiftShader"})
         if (info.renderer.find(software) != std::string::npos) info.software = true;
     info.clip_control = has_clip_control();
+    info.box_pass = BoxPass::is_available();
+    GLint strategy = GL_NO_RESET_NOTIFICATION;
+    if (has_reset_status()) glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    info.tells_loss = strategy == GL_LOSE_CONTEXT_ON_RESET;
     return info;
 }
 
@@ -122,8 +136,9 @@ struct Context::State {
             found = candidate.name + " has no OpenGL";
             return false;
         }
-        for (const int version : {45, kMinimumVersion, 0}) {
-            context = create_context(display, version, debug);
+        for (const auto& [version, told] :
+             {std::pair{45, true}, {45, false}, {kMinimumVersion, false}, {0, false}}) {
+            context = create_context(display, version, debug, told);
             if (context == EGL_NO_CONTEXT) continue;
             if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) break;
             eglDestroyContext(display, context);
@@ -180,14 +195,36 @@ Result<Context> Context::create_headless(const ContextOptions& options) {
     return Context(std::move(best));
 }
 
+std::string describe_reset(unsigned status) {
+    constexpr const char* kMend = "; make the context and everything in it anew";
+    switch (status) {
+        case GL_NO_ERROR:
+            return {};
+        case GL_GUILTY_CONTEXT_RESET:
+            return std::string("the graphics device was reset because of what this context drew") + kMend;
+        case GL_INNOCENT_CONTEXT_RESET:
+            return std::string("the graphics device was reset because of another program") + kMend;
+        default:
+            return std::string("the graphics device was reset") + kMend;
+    }
+}
+
+Status check_device() {
+    if (!has_reset_status()) return success();
+    const GLenum status =
+        epoxy_gl_version() >= 45 ? glGetGraphicsResetStatus() : glGetGraphicsResetStatusKHR();
+    if (status != GL_NO_ERROR) return Error{describe_reset(status)};
+    return success();
+}
+
 void finish() {
     glFinish();
 }
 
 std::string take_error() {
     const GLenum first = glGetError();
-    while (glGetError() != GL_NO_ERROR) {
-    }
+    // A lost context reports its loss for ever.
+    for (GLenum next = first; next != GL_NO_ERROR && next != GL_CONTEXT_LOST;) next = glGetError();
     switch (first) {
         case GL_NO_ERROR:
             return {};
@@ -201,6 +238,8 @@ std::string take_error() {
             return "invalid operation";
         case GL_INVALID_FRAMEBUFFER_OPERATION:
             return "invalid framebuffer operation";
+        case GL_CONTEXT_LOST:
+            return "context lost";
         default:
             return "error " + std::to_string(first);
     }

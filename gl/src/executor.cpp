@@ -5,14 +5,18 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "attributes.h"
+#include "box_pass.h"
+#include "occlusion_tests.h"
 #include "program.h"
 #include "rhview/base/rounding.h"
+#include "rhview/gl/work_counter.h"
 #include "state_guard.h"
 
 namespace rhview::gl {
@@ -74,12 +78,58 @@ bool is_mirrored(const glm::dmat4& matrix) {
     return glm::determinant(glm::dmat3(matrix)) < 0.0;
 }
 
+DrawRange range_of(const ObjectInstance& object) {
+    return {BatchId{0}, object.first_index, object.index_count};
+}
+
+BatchId batch_of(const DrawRange& range) {
+    return range.batch;
+}
+
+BatchId batch_of(const ConditionalRange& conditional) {
+    return conditional.range.batch;
+}
+
+/// Where the draws of the batch of entry `first` end.
+template <class Draw>
+std::size_t end_of_batch(const std::vector<Draw>& draws, std::size_t first) {
+    std::size_t end = first + 1;
+    while (end < draws.size() && batch_of(draws[end]) == batch_of(draws[first])) ++end;
+    return end;
+}
+
+/// While it lives, the device draws only if the query saw something; it waits for that, the CPU does not.
+class Condition {
+  public:
+    /// No query, 0: it draws.
+    explicit Condition(GLuint query) : query_(query) {
+        if (query_ != 0) glBeginConditionalRender(query_, GL_QUERY_WAIT);
+    }
+    ~Condition() {
+        if (query_ != 0) glEndConditionalRender();
+    }
+    Condition(const Condition&) = delete;
+    Condition& operator=(const Condition&) = delete;
+
+  private:
+    GLuint query_;
+};
+
 }  // namespace
 
-Result<Executor> Executor::create() {
+Executor::Executor() = default;
+Executor::Executor(Executor&&) noexcept = default;
+Executor& Executor::operator=(Executor&&) noexcept = default;
+Executor::~Executor() = default;
+
+Result<Executor> Executor::create(const ExecutorOptions& options) {
+    const StateGuard guard(has_clip_control());
     Result<Program> program = link_program(kVertexShader, kFragmentShader);
     if (!program) return program.error();
     Executor executor;
+    Result<OcclusionTests> tests = OcclusionTests::create(options.lost_after_frames);
+    if (!tests) return tests.error();
+    executor.tests_ = std::make_unique<OcclusionTests>(std::move(tests).value());
     executor.program_ = std::move(program).value();
     executor.clip_control_ = has_clip_control();
     const auto location = [&](const char* name) {
@@ -129,41 +179,35 @@ void Executor::set_state(const DrawState& state) {
     state.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
 }
 
-void Executor::draw_ranges(std::span<const DrawRange> ranges, Submission submission,
-                           FrameCounters& counters) {
+std::uint64_t Executor::draw_ranges(std::span<const DrawRange> ranges, Submission submission) {
+    if (submission == Submission::Plain) {
+        for (const DrawRange& range : ranges)
+            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.index_count), GL_UNSIGNED_INT,
+                           index_offset(range.first_index));
+        return ranges.size();
+    }
     counts_.clear();
     offsets_.clear();
     for (const DrawRange& range : ranges) {
-        ++counters.sub_draws;
-        counters.indices += range.index_count;
-        if (submission == Submission::MultiDraw) {
-            counts_.push_back(static_cast<GLsizei>(range.index_count));
-            offsets_.push_back(index_offset(range.first_index));
-            continue;
-        }
-        ++counters.draw_calls;
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.index_count), GL_UNSIGNED_INT,
-                       index_offset(range.first_index));
+        counts_.push_back(static_cast<GLsizei>(range.index_count));
+        offsets_.push_back(index_offset(range.first_index));
     }
-    if (counts_.empty()) return;
-    ++counters.draw_calls;
     glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
                         static_cast<GLsizei>(counts_.size()));
+    return 1;
 }
 
-FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                             const DrawOptions& options) {
-    const StateGuard guard(clip_control_);
-    FrameCounters counters;
-    begin(view, options);
+void Executor::draw_at_once(const FramePlan& plan, const SceneBuffers& scene, const View& view,
+                            Submission submission, FrameCounters& counters) {
     set_transform(view, scene.origin(), glm::dmat4(1.0));
     for (std::size_t first = 0; first < plan.opaque.size();) {
-        const BatchId batch = plan.opaque[first].batch;
-        std::size_t end = first + 1;
-        while (end < plan.opaque.size() && plan.opaque[end].batch == batch) ++end;
-        set_state(scene.batches()[index_of(batch)]);
+        const std::size_t end = end_of_batch(plan.opaque, first);
+        const auto ranges = std::span(plan.opaque).subspan(first, end - first);
+        set_state(scene.batches()[index_of(ranges.front().batch)]);
         ++counters.material_changes;
-        draw_ranges(std::span(plan.opaque).subspan(first, end - first), options.submission, counters);
+        counters.draw_calls += draw_ranges(ranges, submission);
+        counters.sub_draws += ranges.size();
+        for (const DrawRange& range : ranges) counters.indices += range.index_count;
         first = end;
     }
     for (const ObjectId id : plan.objects) {
@@ -171,10 +215,108 @@ FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, c
         set_state(object.state);
         ++counters.material_changes;
         set_transform(view, scene.origin(), object.scene_from_mesh);
-        const DrawRange whole{BatchId{0}, object.first_index, object.index_count};
-        draw_ranges(std::span(&whole, 1), Submission::Plain, counters);
+        counters.draw_calls += draw_ranges(std::array{range_of(object)}, Submission::Plain);
+        ++counters.sub_draws;
+        counters.indices += object.index_count;
     }
+}
+
+void Executor::draw_conditional_batch(std::span<const ConditionalRange> ranges, Submission submission,
+                                      std::size_t& command, FrameCounters& counters) {
+    GLsizei indirect = 0;
+    for (std::size_t first = 0; first < ranges.size();) {
+        const std::uint32_t query = ranges[first].query;
+        run_.clear();
+        for (; first < ranges.size() && ranges[first].query == query; ++first) {
+            counters.conditional_indices += ranges[first].range.index_count;
+            run_.push_back(ranges[first].range);
+        }
+        if (tests_->is_indirect(query)) {
+            indirect += static_cast<GLsizei>(run_.size());
+            continue;
+        }
+        const Condition condition(tests_->condition(query));
+        counters.conditional_draws += draw_ranges(run_, submission);
+    }
+    counters.conditional_sub_draws += ranges.size();
+    if (indirect == 0) return;
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, BoxPass::command_offset(command), indirect, 0);
+    command += static_cast<std::size_t>(indirect);
+    ++counters.conditional_draws;
+    ++counters.indirect_calls;
+}
+
+void Executor::draw_conditional_object(const ConditionalObject& conditional, const ObjectInstance& object,
+                                       std::size_t& command, FrameCounters& counters) {
+    ++counters.conditional_draws;
+    ++counters.conditional_sub_draws;
+    counters.conditional_indices += object.index_count;
+    if (tests_->is_indirect(conditional.query)) {
+        glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, BoxPass::command_offset(command++));
+        ++counters.indirect_calls;
+        return;
+    }
+    const Condition condition(tests_->condition(conditional.query));
+    draw_ranges(std::array{range_of(object)}, Submission::Plain);
+}
+
+void Executor::draw_conditional(const FramePlan& plan, const SceneBuffers& scene, const View& view,
+                                Submission submission, FrameCounters& counters) {
+    std::size_t command = 0;
+    tests_->bind_commands();
+    set_transform(view, scene.origin(), glm::dmat4(1.0));
+    for (std::size_t first = 0; first < plan.conditional.size();) {
+        const std::size_t end = end_of_batch(plan.conditional, first);
+        set_state(scene.batches()[index_of(plan.conditional[first].range.batch)]);
+        ++counters.material_changes;
+        draw_conditional_batch(std::span(plan.conditional).subspan(first, end - first), submission, command,
+                               counters);
+        first = end;
+    }
+    for (const ConditionalObject& conditional : plan.conditional_objects) {
+        const ObjectInstance& object = scene.objects()[index_of(conditional.object)];
+        set_state(object.state);
+        ++counters.material_changes;
+        set_transform(view, scene.origin(), object.scene_from_mesh);
+        draw_conditional_object(conditional, object, command, counters);
+    }
+}
+
+FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, const View& view,
+                             const DrawOptions& options) {
+    const StateGuard guard(clip_control_);
+    FrameCounters counters;
+    begin(view, options);
+    draw_at_once(plan, scene, view, options.submission, counters);
+    tests_->begin_frame();
+    if (plan.queries.empty()) {
+        RHVIEW_ASSERT(plan.conditional.empty() && plan.conditional_objects.empty());
+        return counters;
+    }
+    const QueryStateGuard query_guard;
+    if (options.counter != nullptr) options.counter->pause();
+    tests_->ask(plan, scene, view, counters);
+    if (options.counter != nullptr) options.counter->resume();
+    query_guard.put_back_raster_state();
+    begin(view, options);
+    draw_conditional(plan, scene, view, options.submission, counters);
     return counters;
+}
+
+bool Executor::has_box_pass() const {
+    return tests_->has_box_pass();
+}
+
+void Executor::poll_answers(std::vector<QueryAnswer>& answers) {
+    tests_->poll(answers);
+}
+
+void Executor::wait_for_answers(std::vector<QueryAnswer>& answers) {
+    tests_->wait(answers);
+}
+
+AnswerCounters Executor::answer_counters() const {
+    return tests_->counters();
 }
 
 }  // namespace rhview::gl

@@ -115,7 +115,7 @@ class Designer {
         result.view = seen == Seen::Outside ? view_away() : view_towards();
         if (options_.multi_draw && number % 4 == 1) result.submission = Submission::MultiDraw;
         double budget = seen == Seen::Everything ? kNoLimit : indices;
-        if (!scene_.dynamic_objects.empty() && (blocks_.empty() || number % 3 == 1))
+        if (scene_.object_count() > 0 && (blocks_.empty() || number % 3 == 1))
             budget -= add_objects(indices, result.plan);
         if (!blocks_.empty()) {
             result.plan.opaque = choose_blocks(budget, seen, one_material, result.view);
@@ -167,12 +167,12 @@ class Designer {
 
     /// Consecutive objects from a random one on; the indices they have.
     double add_objects(double budget, FramePlan& plan) {
-        const std::size_t count = scene_.dynamic_objects.size();
+        const std::size_t count = scene_.object_count();
         const std::size_t first = random_.below(count);
         double added = 0.0;
         for (std::size_t i = 0; i < count; ++i) {
             const auto id = static_cast<std::uint32_t>((first + i) % count);
-            const SceneMesh& mesh = scene_.meshes[index_of(scene_.dynamic_objects[id].mesh)];
+            const SceneMesh& mesh = scene_.meshes[index_of(scene_.object_mesh(ObjectId{id}))];
             const auto indices = static_cast<double>(mesh.indices.size());
             if (added + indices > budget && !(plan.objects.empty() && blocks_.empty())) break;
             added += indices;

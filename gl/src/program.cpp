@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 
+#include <initializer_list>
 #include <string>
 
 namespace rhview::gl {
@@ -23,6 +24,18 @@ GLuint compile(GLenum stage, const char* source, std::string& log) {
     log.resize(static_cast<std::size_t>(length));
     glDeleteShader(shader);
     return 0;
+}
+
+/// Takes the shaders.
+Result<Program> link(std::initializer_list<GLuint> shaders) {
+    Program program(glCreateProgram());
+    for (const GLuint shader : shaders) glAttachShader(program.name(), shader);
+    glLinkProgram(program.name());
+    for (const GLuint shader : shaders) glDeleteShader(shader);
+    GLint ok = GL_FALSE;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
+    if (ok != GL_TRUE) return Error{"the driver did not link the shaders"};
+    return program;
 }
 
 }  // namespace
@@ -44,6 +57,10 @@ void delete_handle(HandleKind kind, std::uint32_t name) {
     }
 }
 
+void delete_fence(void* sync) {
+    glDeleteSync(static_cast<GLsync>(sync));
+}
+
 Result<Program> link_program(const char* vertex_source, const char* fragment_source) {
     std::string log;
     const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_source, log);
@@ -53,16 +70,14 @@ Result<Program> link_program(const char* vertex_source, const char* fragment_sou
         glDeleteShader(vertex);
         return Error{"the driver refused a fragment shader: " + log};
     }
-    Program program(glCreateProgram());
-    glAttachShader(program.name(), vertex);
-    glAttachShader(program.name(), fragment);
-    glLinkProgram(program.name());
-    glDeleteShader(vertex);
-    glDeleteShader(fragment);
-    GLint ok = GL_FALSE;
-    glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
-    if (ok != GL_TRUE) return Error{"the driver did not link the shaders"};
-    return program;
+    return link({vertex, fragment});
+}
+
+Result<Program> link_compute_program(const char* source) {
+    std::string log;
+    const GLuint shader = compile(GL_COMPUTE_SHADER, source, log);
+    if (shader == 0) return Error{"the driver refused a compute shader: " + log};
+    return link({shader});
 }
 
 }  // namespace rhview::gl

@@ -10,5 +10,6 @@ namespace rhview::gl {
 
 /// Compiles and links; an error carries the driver's log.
 Result<Program> link_program(const char* vertex_source, const char* fragment_source);
+Result<Program> link_compute_program(const char* source);
 
 }  // namespace rhview::gl

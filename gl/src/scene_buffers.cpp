@@ -94,10 +94,13 @@ Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const st
     };
     for (const SceneBatch& batch : scene.batches)
         buffers.batches_.push_back(state_of(batch.material, batch.pool));
-    for (const DynamicObject& object : scene.dynamic_objects) {
-        const SceneMesh& mesh = scene.meshes[index_of(object.mesh)];
-        buffers.objects_.push_back({state_of(mesh.material, mesh.pool), first_of_mesh[index_of(object.mesh)],
-                                    static_cast<std::uint32_t>(mesh.indices.size()), object.scene_from_mesh});
+    buffers.objects_.reserve(scene.object_count());
+    for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
+        const std::size_t mesh_number = index_of(scene.object_mesh(ObjectId{i}));
+        const SceneMesh& mesh = scene.meshes[mesh_number];
+        buffers.objects_.push_back({state_of(mesh.material, mesh.pool), first_of_mesh[mesh_number],
+                                    static_cast<std::uint32_t>(mesh.indices.size()),
+                                    scene.object_placement(ObjectId{i})});
     }
     buffers.bytes_ = index_bytes + scene.vertex_bytes();
     if (const std::string error = take_error(); !error.empty())

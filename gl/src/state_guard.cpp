@@ -49,6 +49,44 @@ StateGuard::~StateGuard() {
     for (GLuint i = 0; i < 2; ++i) glVertexAttrib4fv(i + 1, attributes_[i]);
 }
 
+QueryStateGuard::QueryStateGuard() {
+    for (GLuint i = 0; i < kColourBuffers; ++i) glGetBooleani_v(GL_COLOR_WRITEMASK, i, colour_mask_[i]);
+    stencil_test_ = glIsEnabled(GL_STENCIL_TEST) == GL_TRUE;
+    depth_clamp_ = glIsEnabled(GL_DEPTH_CLAMP) == GL_TRUE;
+    glGetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &storage_buffer_);
+    glGetIntegerv(GL_DRAW_INDIRECT_BUFFER_BINDING, &indirect_buffer_);
+    glGetIntegerv(GL_COPY_READ_BUFFER_BINDING, &copy_read_buffer_);
+    glGetIntegerv(GL_COPY_WRITE_BUFFER_BINDING, &copy_write_buffer_);
+    for (GLuint i = 0; i < kStorageBuffers; ++i) {
+        glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, i, &storage_[i].name);
+        glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, i, &storage_[i].start);
+        glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, i, &storage_[i].size);
+    }
+}
+
+void QueryStateGuard::put_back_raster_state() const {
+    for (GLuint i = 0; i < kColourBuffers; ++i)
+        glColorMaski(i, colour_mask_[i][0], colour_mask_[i][1], colour_mask_[i][2], colour_mask_[i][3]);
+    set_enabled(GL_STENCIL_TEST, stencil_test_);
+    set_enabled(GL_DEPTH_CLAMP, depth_clamp_);
+}
+
+QueryStateGuard::~QueryStateGuard() {
+    put_back_raster_state();
+    for (GLuint i = 0; i < kStorageBuffers; ++i) {
+        const Storage& storage = storage_[i];
+        const auto name = static_cast<GLuint>(storage.name);
+        if (storage.size > 0)
+            glBindBufferRange(GL_SHADER_STORAGE_BUFFER, i, name, storage.start, storage.size);
+        else
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, name);
+    }
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(storage_buffer_));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, static_cast<GLuint>(indirect_buffer_));
+    glBindBuffer(GL_COPY_READ_BUFFER, static_cast<GLuint>(copy_read_buffer_));
+    glBindBuffer(GL_COPY_WRITE_BUFFER, static_cast<GLuint>(copy_write_buffer_));
+}
+
 TargetGuard::TargetGuard() {
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);

@@ -35,6 +35,35 @@ class StateGuard {
     float attributes_[2][4] = {};  ///< normal and colour
 };
 
+/// Puts back what asking queries and conditional draws change besides: colour masks, stencil test, depth
+/// clamp, storage buffers 0 to 2, and the buffers for indirect draws and copies.
+class QueryStateGuard {
+  public:
+    QueryStateGuard();
+    ~QueryStateGuard();
+    QueryStateGuard(const QueryStateGuard&) = delete;
+    QueryStateGuard& operator=(const QueryStateGuard&) = delete;
+    /// Colour masks, stencil test and depth clamp already, for draws that follow.
+    void put_back_raster_state() const;
+
+  private:
+    static constexpr unsigned kColourBuffers = 8;
+    static constexpr unsigned kStorageBuffers = 3;
+    struct Storage {
+        int name = 0;
+        std::int64_t start = 0, size = 0;
+    };
+
+    std::uint8_t colour_mask_[kColourBuffers][4] = {};
+    bool stencil_test_ = false;
+    bool depth_clamp_ = false;
+    int storage_buffer_ = 0;
+    int indirect_buffer_ = 0;
+    int copy_read_buffer_ = 0;
+    int copy_write_buffer_ = 0;
+    Storage storage_[kStorageBuffers];
+};
+
 /// Puts back what making, binding and reading a target changes: framebuffers, renderbuffer, viewport, pack
 /// alignment, depth mask.
 class TargetGuard {

@@ -5,6 +5,8 @@
 
 #include <epoxy/gl.h>
 
+#include "rhview/base/assert.h"
+
 namespace rhview::gl {
 namespace {
 
@@ -34,30 +36,48 @@ Work work_of(const FrameCounters& counters) {
 WorkCounter::WorkCounter()
     : available_(epoxy_gl_version() >= 46 || epoxy_has_gl_extension("GL_ARB_pipeline_statistics_query")) {
     if (!available_) return;
-    primitives_ = make_query();
-    fragments_ = make_query();
-    samples_ = make_query();
+    for (Part& part : parts_) part = {make_query(), make_query(), make_query()};
 }
 
-void WorkCounter::begin() {
-    if (!available_) return;
-    glBeginQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB, primitives_.name());
-    glBeginQuery(GL_FRAGMENT_SHADER_INVOCATIONS_ARB, fragments_.name());
-    glBeginQuery(GL_SAMPLES_PASSED, samples_.name());
+void WorkCounter::begin_part() {
+    const Part& part = parts_[used_++];
+    glBeginQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB, part.primitives.name());
+    glBeginQuery(GL_FRAGMENT_SHADER_INVOCATIONS_ARB, part.fragments.name());
+    glBeginQuery(GL_SAMPLES_PASSED, part.samples.name());
 }
 
-void WorkCounter::end() {
-    if (!available_) return;
+void WorkCounter::end_part() {
     glEndQuery(GL_CLIPPING_OUTPUT_PRIMITIVES_ARB);
     glEndQuery(GL_FRAGMENT_SHADER_INVOCATIONS_ARB);
     glEndQuery(GL_SAMPLES_PASSED);
 }
 
+void WorkCounter::begin() {
+    used_ = 0;
+    if (available_) begin_part();
+}
+
+void WorkCounter::pause() {
+    if (available_) end_part();
+}
+
+void WorkCounter::resume() {
+    RHVIEW_ASSERT(!available_ || used_ < parts_.size());
+    if (available_) begin_part();
+}
+
+void WorkCounter::end() {
+    if (available_) end_part();
+}
+
 void WorkCounter::read(Work& work) {
     if (!available_) return;
-    work.primitives = result_of(primitives_);
-    work.fragments = result_of(fragments_);
-    work.passed_samples = result_of(samples_);
+    work.primitives = work.fragments = work.passed_samples = 0.0;
+    for (std::size_t i = 0; i < used_; ++i) {
+        work.primitives += result_of(parts_[i].primitives);
+        work.fragments += result_of(parts_[i].fragments);
+        work.passed_samples += result_of(parts_[i].samples);
+    }
 }
 
 }  // namespace rhview::gl

@@ -21,8 +21,13 @@ void hash_word(std::uint64_t& hash, std::uint32_t word) {
 void FramePlan::clear() {
     opaque.clear();
     objects.clear();
+    query_boxes.clear();
+    queries.clear();
+    conditional.clear();
+    conditional_objects.clear();
     chosen.clear();
     nodes_visited = 0;
+    occlusion.reset();
     predicted_ns.reset();
 }
 
@@ -35,6 +40,21 @@ std::uint64_t plan_hash(const FramePlan& plan, std::uint64_t seed) {
         hash_word(hash, range.index_count);
     }
     for (const ObjectId object : plan.objects) hash_word(hash, static_cast<std::uint32_t>(object));
+    for (const PlannedQuery& query : plan.queries) {
+        hash_word(hash, query.first_box);
+        hash_word(hash, query.box_count);
+        hash_word(hash, static_cast<std::uint32_t>(query.way));
+    }
+    for (const ConditionalRange& conditional : plan.conditional) {
+        hash_word(hash, static_cast<std::uint32_t>(conditional.range.batch));
+        hash_word(hash, conditional.range.first_index);
+        hash_word(hash, conditional.range.index_count);
+        hash_word(hash, conditional.query);
+    }
+    for (const ConditionalObject& conditional : plan.conditional_objects) {
+        hash_word(hash, static_cast<std::uint32_t>(conditional.object));
+        hash_word(hash, conditional.query);
+    }
     return hash;
 }
 

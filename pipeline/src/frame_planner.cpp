@@ -3,13 +3,26 @@
 
 #include "rhview/pipeline/frame_planner.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "rhview/frustum/box_batch.h"
+
 namespace rhview {
 
 void append_visible_objects(const Frustum& frustum, std::span<const Aabb> boxes,
                             std::vector<ObjectId>& objects) {
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        PlaneMask mask = frustum.mask;
-        if (classify(frustum, boxes[i], mask) != Containment::Outside) objects.push_back(ObjectId{i});
+    constexpr std::size_t kBoxesAtOnce = 4096;  // their bits stay on the stack
+    std::array<std::uint64_t, visibility_words(kBoxesAtOnce)> visible;
+    for (std::size_t first = 0; first < boxes.size(); first += kBoxesAtOnce) {
+        const std::size_t count = std::min(kBoxesAtOnce, boxes.size() - first);
+        cull_boxes(frustum, boxes.subspan(first, count), visible);
+        for (std::size_t word = 0; word < visibility_words(count); ++word)
+            for (std::uint64_t rest = visible[word]; rest != 0; rest &= rest - 1) {
+                const std::size_t box = first + 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
+                objects.push_back(ObjectId{static_cast<std::uint32_t>(box)});
+            }
     }
 }
 

@@ -5,16 +5,34 @@
 
 namespace rhview {
 
+RhviewPlanner::RhviewPlanner(const RhOctree& octree, const DrawCosts& costs,
+                             const std::optional<OcclusionOptions>& occlusion)
+    : octree_(octree), costs_(costs) {
+    if (occlusion) visibility_.emplace(octree, *occlusion);
+}
+
+void RhviewPlanner::absorb(std::span<const QueryAnswer> answers) {
+    if (visibility_) visibility_->absorb(answers);
+}
+
 void RhviewPlanner::plan(const FrameInput& input, FramePlan& plan) {
     plan.clear();
     const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
     const Viewpoint viewpoint = make_viewpoint(input.culling_view, input.scene_origin);
-    solver_.solve(octree_, frustum, viewpoint, costs_, list_);
+    std::span<const NodeAlternative> alternatives;
+    if (visibility_) {
+        visibility_->decide(input, frustum, costs_, last_predicted_ns_, plan);
+        alternatives = visibility_->alternatives();
+    } else {
+        append_visible_objects(frustum, input.object_boxes, plan.objects);
+    }
+    solver_.solve(octree_, frustum, viewpoint, costs_, list_, alternatives);
     plan.opaque.assign(list_.ranges.begin(), list_.ranges.end());
-    plan.predicted_ns = list_.predicted_ns;
-    plan.nodes_visited = list_.nodes_visited;
+    if (visibility_) visibility_->append_conditional(list_.alternatives, plan);
+    plan.predicted_ns = list_.predicted_ns + (plan.occlusion ? plan.occlusion->query_ns : 0.0);
+    plan.nodes_visited = list_.nodes_visited + (visibility_ ? visibility_->nodes_visited() : 0);
     for (const NodeId node : list_.nodes) plan.chosen.push_back(static_cast<std::uint32_t>(node));
-    append_visible_objects(frustum, input.object_boxes, plan.objects);
+    last_predicted_ns_ = *plan.predicted_ns;
 }
 
 Aabb RhviewPlanner::bounds_of(std::uint32_t chosen) const {

@@ -4,6 +4,20 @@
 #include "rhview/pipeline/seed_planner.h"
 
 namespace rhview {
+namespace {
+
+const RhOctree kNoNodes{};
+
+}  // namespace
+
+SeedPlanner::SeedPlanner(const RhOctree& octree, const DrawCosts& costs, const OcclusionOptions& occlusion)
+    : octree_(octree), costs_(costs) {
+    objects_.emplace(kNoNodes, occlusion);
+}
+
+void SeedPlanner::absorb(std::span<const QueryAnswer> answers) {
+    if (objects_) objects_->absorb(answers);
+}
 
 void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frustum& frustum,
                         const FrameInput& input, BatchSorter& sorter, FramePlan& plan) {
@@ -19,6 +33,12 @@ void SeedPlanner::plan(const FrameInput& input, FramePlan& plan) {
     const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
     seed_draw_list(octree_, frustum, list_);
     finish_octree_plan(octree_, list_, frustum, input, sorter_, plan);
+    if (!objects_) return;
+    double static_ns = 0.0;
+    for (const DrawRange& range : plan.opaque)
+        static_ns += costs_.draw_ns + costs_.index_ns * range.index_count;
+    plan.objects.clear();
+    objects_->decide(input, frustum, costs_, static_ns, plan);
 }
 
 Aabb SeedPlanner::bounds_of(std::uint32_t chosen) const {

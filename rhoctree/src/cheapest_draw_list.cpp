@@ -4,6 +4,7 @@
 // A shortest path per batch (range_route.h) along the depth-first order, all batches in one traversal.
 
 #include <algorithm>
+#include <limits>
 
 #include "rhview/base/assert.h"
 #include "rhview/rhoctree/draw_list.h"
@@ -15,6 +16,8 @@ namespace {
 // one core at 2 to 3 GHz; they only keep out replicas that save next to nothing.
 constexpr double kReplicaVisitNs = 20.0;
 constexpr double kClusterTestNs = 3.0;
+
+constexpr std::uint32_t kWhole = NodeAlternative::kWhole;
 
 /// The ranges of what is left of `clusters`, the first of which begins at index `first`: a gap is bridged
 /// where that costs no more than a draw. `add(first, count)` is called for each; their cost, ns.
@@ -50,29 +53,40 @@ class DrawListWalk {
   public:
     DrawListWalk(DrawListSolver& solver, const RhOctree& octree, const Frustum& frustum,
                  const Viewpoint& viewpoint, const DrawCosts& costs, DrawList& list,
-                 std::span<double> saving_ns)
+                 std::span<const NodeAlternative> alternatives, std::span<double> saving_ns)
         : solver_(solver),
           nodes_(octree.nodes()),
           pieces_(octree.pieces()),
           replicas_(octree.replicas()),
           clusters_(octree.clusters()),
+          ranges_(octree.all_ranges()),
           frustum_(frustum),
           viewpoint_(viewpoint),
           costs_(costs),
           list_(list),
+          alternatives_(alternatives),
           saving_ns_(saving_ns) {}
 
     void visit(std::uint32_t index, PlaneMask mask) {
         ++list_.nodes_visited;
         const OctreeNode& node = nodes_[index];
+        while (next_alternative_node() < index) ++next_alternative_;
+        if (next_alternative_node() == index && alternatives_[next_alternative_].piece == kWhole)
+            return offer_node(index);
         if (classify(frustum_, node.bounds, mask) == Containment::Outside) return;
-        if (mask == 0) return show_all(index);
+        if (mask == 0 && next_alternative_node() >= node.end) return show_all(index);
         const bool leaf = node.end == index + 1;
         const std::uint32_t piece_end = leaf ? node.piece_end : nodes_[index + 1].first_piece;
         const std::uint32_t replica_end = leaf ? node.replica_end : nodes_[index + 1].first_replica;
         for (std::uint32_t r = node.first_replica; r < replica_end; ++r) enter(r);
         if (node.first_piece < piece_end) list_.nodes.push_back(NodeId{index});
         for (std::uint32_t p = node.first_piece; p < piece_end; ++p) {
+            if (!leaf) solver_.told_until_[index_of(pieces_[p].batch)] = end_of(pieces_[p]);
+            if (next_alternative_node() == index && alternatives_[next_alternative_].piece == p) {
+                offer({pieces_[p].batch, pieces_[p].first_index, pieces_[p].index_count});
+                ++next_alternative_;
+                continue;
+            }
             PlaneMask piece_mask = mask;
             // A node of one batch has its piece's box.
             if (node.range_count == 1 ||
@@ -90,18 +104,24 @@ class DrawListWalk {
         for (std::uint32_t b = 0; b < solver_.routes_.size(); ++b) {
             RangeRoute& route = solver_.routes_[b];
             const std::size_t first = list_.ranges.size();
+            const std::size_t first_taken = list_.alternatives.size();
             for (std::uint32_t place = route.finish(solver_.log_); place != RangeLog::kNone;) {
                 const RangeLog::Entry& entry = solver_.log_[place];
-                if (entry.is_replica())
+                if (entry.is_replica() && entry.end < replicas_.size())
                     draw_replica(replicas_[entry.end]);
+                else if (entry.is_replica())
+                    list_.alternatives.push_back(solver_.offered_[entry.end - replicas_.size()]);
                 else
                     list_.ranges.push_back({BatchId{b}, entry.first, entry.end - entry.first});
                 place = entry.previous;
             }
-            if (list_.ranges.size() == first) continue;
+            list_.predicted_ns += route.cost_ns();
             // The log leads from the last entry to the first.
+            std::reverse(list_.alternatives.begin() + static_cast<std::ptrdiff_t>(first_taken),
+                         list_.alternatives.end());
+            if (list_.ranges.size() == first) continue;
             std::reverse(list_.ranges.begin() + static_cast<std::ptrdiff_t>(first), list_.ranges.end());
-            list_.predicted_ns += route.cost_ns() + costs_.call_ns;
+            list_.predicted_ns += costs_.call_ns;
         }
     }
 
@@ -128,6 +148,8 @@ class DrawListWalk {
         return nodes_[index_of(replicas_[solver_.open_replicas_.back().replica].node)].piece_end;
     }
 
+    static std::uint32_t end_of(const OctreePiece& piece) { return piece.first_index + piece.index_count; }
+
     void show(const OctreePiece& piece) {
         ++list_.pieces_visited;
         RangeRoute& route = solver_.routes_[index_of(piece.batch)];
@@ -139,7 +161,7 @@ class DrawListWalk {
             for (; cluster != end && faces_away(cluster->facing, viewpoint_); ++cluster)
                 first += cluster->index_count;
             if (cluster == end) return;
-            std::uint32_t last = piece.first_index + piece.index_count;
+            std::uint32_t last = end_of(piece);
             for (--end; end != cluster && faces_away(end->facing, viewpoint_); --end)
                 last -= end->index_count;
             route.show(first, last - first, costs_, solver_.log_);
@@ -150,6 +172,35 @@ class DrawListWalk {
                 route.show(first, cluster->index_count, costs_, solver_.log_);
             first += cluster->index_count;
         }
+    }
+
+    /// The first node from here on that has an alternative; none: beyond all nodes.
+    [[nodiscard]] std::uint32_t next_alternative_node() const {
+        return next_alternative_ < alternatives_.size()
+                   ? static_cast<std::uint32_t>(alternatives_[next_alternative_].node)
+                   : std::numeric_limits<std::uint32_t>::max();
+    }
+
+    void offer_node(std::uint32_t index) {
+        const std::uint32_t first = nodes_[index].first_range;
+        for (std::uint32_t r = first; r < first + nodes_[index].range_count; ++r) {
+            const DrawRange& range = ranges_[r];
+            // A piece of an inner node above may hold all that the batch has here.
+            if (range.first_index >= solver_.told_until_[index_of(range.batch)]) offer(range);
+        }
+        ++next_alternative_;
+    }
+
+    /// `range` is of the next alternative.
+    void offer(const DrawRange& range) {
+        const NodeAlternative& alternative = alternatives_[next_alternative_];
+        RangeRoute& route = solver_.routes_[index_of(range.batch)];
+        const RangeRoute::ReplicaEntry entry = route.enter_replica(solver_.log_);
+        route.show(range.first_index, range.index_count, costs_, solver_.log_);
+        const auto number = static_cast<std::uint32_t>(replicas_.size() + solver_.offered_.size());
+        solver_.offered_.push_back({range, next_alternative_});
+        route.leave_replica(entry, number, alternative.draw_ns + alternative.index_ns * range.index_count,
+                            solver_.log_);
     }
 
     void enter(std::uint32_t replica) {
@@ -188,38 +239,46 @@ class DrawListWalk {
     std::span<const OctreePiece> pieces_;
     std::span<const OctreeReplica> replicas_;
     std::span<const NormalCluster> clusters_;
+    std::span<const DrawRange> ranges_;
     const Frustum& frustum_;
     const Viewpoint& viewpoint_;
     DrawCosts costs_;
     DrawList& list_;
-    std::span<double> saving_ns_;  ///< by replica; empty: replicas are drawn where they save something
+    std::span<const NodeAlternative> alternatives_;
+    std::uint32_t next_alternative_ = 0;  ///< the first that the walk has not come to
+    std::span<double> saving_ns_;         ///< by replica; empty: replicas are drawn where they save something
 };
 
 void DrawListSolver::walk(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
-                          const DrawCosts& costs, DrawList& list, std::span<double> saving_ns) {
+                          const DrawCosts& costs, DrawList& list,
+                          std::span<const NodeAlternative> alternatives, std::span<double> saving_ns) {
     list.ranges.clear();
+    list.alternatives.clear();
     list.nodes.clear();
     list.predicted_ns = 0.0;
     list.nodes_visited = 0;
     list.pieces_visited = 0;
     list.replicas_drawn = 0;
     log_.clear();
+    offered_.clear();
     open_replicas_.clear();
     routes_.assign(octree.batch_count(), RangeRoute());
-    DrawListWalk walk(*this, octree, frustum, viewpoint, costs, list, saving_ns);
+    told_until_.assign(octree.batch_count(), 0);
+    DrawListWalk walk(*this, octree, frustum, viewpoint, costs, list, alternatives, saving_ns);
     if (!octree.nodes().empty()) walk.visit(0, frustum.mask);
     walk.finish();
 }
 
 void DrawListSolver::solve(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
-                           const DrawCosts& costs, DrawList& list) {
-    walk(octree, frustum, viewpoint, costs, list, {});
+                           const DrawCosts& costs, DrawList& list,
+                           std::span<const NodeAlternative> alternatives) {
+    walk(octree, frustum, viewpoint, costs, list, alternatives, {});
 }
 
 void DrawListSolver::add_savings(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
                                  const DrawCosts& costs, DrawList& list, std::span<double> saving_ns) {
     RHVIEW_ASSERT(saving_ns.size() == octree.replicas().size());
-    walk(octree, frustum, viewpoint, costs, list, saving_ns);
+    walk(octree, frustum, viewpoint, costs, list, {}, saving_ns);
 }
 
 }  // namespace rhview

@@ -6,14 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "placement.h"
 #include "rhview/base/index_check.h"
 
 namespace rhview {
 namespace {
-
-bool is_finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 bool is_box(const Aabb& box) {
     return !box.is_empty() && is_finite(box.min) && is_finite(box.max);
@@ -37,6 +34,19 @@ const char* problem_of(const Scene& scene, const Part& part) {
     if (!all_below(part.indices.span(), scene.pools[part.pool].positions.size()))
         return "an index is not below its number of vertices";
     return nullptr;
+}
+
+const char* problem_of(const Scene& scene, const StaticInstance& instance) {
+    if (index_of(instance.mesh) >= scene.meshes.size()) return "its mesh is not in the list";
+    if (!can_be_drawn_through(instance.scene_from_mesh)) return "its placement can't be drawn through";
+    return is_box(instance.bounds) ? nullptr : "its box is none";
+}
+
+/// Numbers for reports: none of them is a count of anything in the file.
+bool is_sound(const InstancingReport& report) {
+    for (const double ns : {report.all_kept_ns, report.all_flattened_ns, report.chosen_ns})
+        if (!(ns >= 0.0 && std::isfinite(ns))) return false;
+    return true;
 }
 
 const char* problem_of_objects(const SceneBatch& batch) {
@@ -72,6 +82,9 @@ Status check_lists(const RhoFile& file, const Scene& scene) {
         if (!is_affine(scene.dynamic_objects[i].scene_from_mesh))
             return error("object", i, "its placement is not affine");
     }
+    for (std::size_t i = 0; i < scene.static_instances.size(); ++i)
+        if (const char* problem = problem_of(scene, scene.static_instances[i]))
+            return error("instance", i, problem);
     return success();
 }
 
@@ -82,7 +95,9 @@ Status check_baked_scene(const RhoFile& file, const SceneAndPath& loaded) {
     if (!std::isfinite(origin.x) || !std::isfinite(origin.y) || !std::isfinite(origin.z))
         return file.error(kSceneDescription, "the scene's origin is not finite");
     if (Status status = check_lists(file, loaded.scene); !status) return status;
-    if (loaded.scene.batches.empty() && loaded.scene.dynamic_objects.empty())
+    if (!is_sound(loaded.scene.instancing))
+        return file.error(kSceneDescription, "a modelled time of its instances is none");
+    if (loaded.scene.batches.empty() && loaded.scene.object_count() == 0)
         return file.error(kSceneDescription, "the scene holds nothing to draw");
     if (Status status = validate(loaded.path); !status)
         return file.error(kSceneDescription, "the camera path: " + status.error().message);

@@ -28,7 +28,7 @@ std::string lower_case_extension(const std::filesystem::path& file) {
     return extension;
 }
 
-Result<Scene> dispatch(const std::filesystem::path& file, const std::string& name) {
+Result<Scene> dispatch(const std::filesystem::path& file, const std::string& name, RepeatedMeshes repeated) {
     const std::string extension = lower_case_extension(file);
     const bool gltf = extension == ".glb" || extension == ".gltf";
     std::error_code ignored;
@@ -39,7 +39,7 @@ Result<Scene> dispatch(const std::filesystem::path& file, const std::string& nam
     }
     Result<std::string> bytes = read_file(file, name);
     if (!bytes) return bytes.error();
-    if (gltf) return import_gltf(file, name, std::move(*bytes));
+    if (gltf) return import_gltf(file, name, std::move(*bytes), repeated);
     if (extension == ".obj") return import_obj(file, name, std::move(*bytes));
     return import_ply(name, std::move(*bytes));
 }
@@ -123,12 +123,12 @@ void colour_white_materials(std::vector<Material>& materials) {
     for (std::size_t i = 0; i < materials.size(); ++i) materials[i].colour = muted_colour(i);
 }
 
-Result<Scene> import_scene(const std::filesystem::path& file) {
+Result<Scene> import_scene(const std::filesystem::path& file, RepeatedMeshes repeated) {
     // The reading libraries throw; hostile counts make the standard containers throw.
     std::string name = "scene file";
     try {
         name = file.string();
-        Result<Scene> scene = dispatch(file, name);
+        Result<Scene> scene = dispatch(file, name, repeated);
         if (!scene) return Error{one_line(scene.error().message)};
         for (std::string& warning : scene->warnings) warning = one_line(warning);
         scene->name = file.stem().string();

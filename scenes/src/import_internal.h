@@ -15,11 +15,13 @@
 #include <vector>
 
 #include "rhview/base/result.h"
+#include "rhview/scenes/import.h"
 #include "rhview/scenes/scene.h"
 
 namespace rhview {
 
-Result<Scene> import_gltf(const std::filesystem::path& file, const std::string& name, std::string bytes);
+Result<Scene> import_gltf(const std::filesystem::path& file, const std::string& name, std::string bytes,
+                          RepeatedMeshes repeated);
 Result<Scene> import_obj(const std::filesystem::path& file, const std::string& name, std::string bytes);
 Result<Scene> import_ply(const std::string& name, std::string bytes);
 

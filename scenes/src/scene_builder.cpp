@@ -4,12 +4,11 @@
 #include "rhview/scenes/scene_builder.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
+#include <glm/common.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
+
+#include "placement.h"
 
 namespace rhview {
 namespace {
@@ -21,36 +20,6 @@ constexpr std::size_t kFormats = 4;
 std::size_t format_of(bool normals, bool colours) {
     return (normals ? 1u : 0u) + (colours ? 2u : 0u);
 }
-
-bool is_finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-/// An affine map as it acts on positions, normals and windings.
-struct Placement {
-    explicit Placement(const glm::dmat4& target_from_piece)
-        : matrix(target_from_piece), mirrored(glm::determinant(glm::dmat3(target_from_piece)) < 0.0) {
-        // The cofactor matrix carries normals through any affine map, singular ones included (Abrash; Garrity
-        // 2008).
-        const glm::dmat3 linear(matrix);
-        normals = glm::dmat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                             glm::cross(linear[0], linear[1])) *
-                  (mirrored ? -1.0 : 1.0);
-    }
-    [[nodiscard]] glm::vec3 position(const glm::vec3& p) const {
-        return {matrix * glm::dvec4(glm::dvec3(p), 1.0)};
-    }
-    [[nodiscard]] PackedNormal normal(const glm::vec3& source) const {
-        const glm::dvec3 n = normals * glm::dvec3(source);
-        const double length = glm::length(n);
-        return pack_normal(length > 0.0 && std::isfinite(length) ? glm::vec3(n / length)
-                                                                 : glm::vec3(0, 1, 0));
-    }
-
-    glm::dmat4 matrix;
-    glm::dmat3 normals;
-    bool mirrored;
-};
 
 }  // namespace
 
@@ -154,8 +123,10 @@ std::optional<MeshId> SceneBuilder::add_mesh(MaterialId material, const MeshPiec
     SceneMesh mesh;
     mesh.material = material;
     mesh.pool = pool_for(!piece.normals.empty(), !piece.colours.empty());
+    const std::size_t first = scene_.pools[mesh.pool].positions.size();
     append(piece, glm::dmat4(1.0), mesh.pool, mesh.indices.own(), mesh.bounds);
     if (mesh.indices.empty()) return std::nullopt;
+    mesh_vertices_.push_back({first, scene_.pools[mesh.pool].positions.size()});
     scene_.meshes.push_back(std::move(mesh));
     return MeshId{static_cast<std::uint32_t>(scene_.meshes.size() - 1)};
 }
@@ -164,6 +135,26 @@ void SceneBuilder::add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh) {
     glm::dmat4 scene_from_mesh = world_from_mesh;
     scene_from_mesh[3] -= glm::dvec4(scene_.origin, 0.0);
     scene_.dynamic_objects.push_back({mesh, scene_from_mesh});
+}
+
+bool SceneBuilder::add_instance(MeshId mesh, const glm::dmat4& world_from_mesh) {
+    glm::dmat4 scene_from_mesh = world_from_mesh;
+    scene_from_mesh[3] -= glm::dvec4(scene_.origin, 0.0);
+    if (!can_be_drawn_through(scene_from_mesh)) return false;
+    const Placement placement(scene_from_mesh);
+    const auto [first, end] = mesh_vertices_[index_of(mesh)];
+    const std::span<const glm::vec3> positions =
+        scene_.pools[scene_.meshes[index_of(mesh)].pool].positions.span().subspan(first, end - first);
+    glm::dvec3 min(std::numeric_limits<double>::infinity()), max = -min;
+    for (const glm::vec3& position : positions) {
+        const glm::dvec3 place = placement.exact_position(position);
+        min = glm::min(min, place);
+        max = glm::max(max, place);
+    }
+    StaticInstance instance{mesh, scene_from_mesh, {}};
+    if (!round_outwards(min, max, instance.bounds)) return false;
+    scene_.static_instances.push_back(instance);
+    return true;
 }
 
 void SceneBuilder::add_warning(std::string sentence) {
@@ -193,7 +184,7 @@ Result<Scene> SceneBuilder::finish(std::string name) {
                      ": more than 4,294,967,294 vertices or indices in one vertex format; split the scene"};
     }
     std::erase_if(scene.batches, [](const SceneBatch& batch) { return batch.indices.empty(); });
-    if (scene.batches.empty() && scene.dynamic_objects.empty()) {
+    if (scene.batches.empty() && scene.object_count() == 0) {
         return Error{name + ": the scene holds no triangle to draw" +
                      (scene.dropped_triangles > 0 ? " (" + std::to_string(scene.dropped_triangles) +
                                                         " had a corner that is not finite)"

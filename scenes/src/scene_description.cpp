@@ -41,6 +41,27 @@ void stream_vector(Io& io, Vector& v) {
     for (glm::length_t i = 0; i < 3; ++i) io.value(v[i]);
 }
 
+template <class Io, class Matrix>
+void stream_matrix(Io& io, Matrix& matrix) {
+    for (glm::length_t column = 0; column < 4; ++column)
+        for (glm::length_t row = 0; row < 4; ++row) io.value(matrix[column][row]);
+}
+
+template <class Io, class Report>
+void stream_report(Io& io, Report& report) {
+    io.value(report.flattened_meshes);
+    io.value(report.flattened_placements);
+    io.value(report.flattened_bytes);
+    io.value(report.kept_meshes);
+    io.value(report.kept_placements);
+    io.value(report.kept_bytes);
+    io.value(report.all_flattened_bytes);
+    io.value(report.budget_bytes);
+    io.value(report.all_kept_ns);
+    io.value(report.all_flattened_ns);
+    io.value(report.chosen_ns);
+}
+
 /// The layout, for both directions: `io` puts or gets each value. Lists say how many bytes an item takes at
 /// least.
 template <class Io, class Description>
@@ -79,9 +100,15 @@ void stream_scene(Io& io, Description& d) {
     });
     io.list(d.dynamic_objects, 132, [&](auto& object) {
         io.value(object.mesh);
-        for (glm::length_t column = 0; column < 4; ++column)
-            for (glm::length_t row = 0; row < 4; ++row) io.value(object.scene_from_mesh[column][row]);
+        stream_matrix(io, object.scene_from_mesh);
     });
+    io.list(d.static_instances, 156, [&](auto& instance) {
+        io.value(instance.mesh);
+        stream_matrix(io, instance.scene_from_mesh);
+        stream_vector(io, instance.bounds.min);
+        stream_vector(io, instance.bounds.max);
+    });
+    stream_report(io, d.instancing);
 }
 
 template <class Io, class Path>
@@ -117,6 +144,8 @@ SceneDescription describe(const SceneAndPath& loaded, const SceneProvenance& pro
     for (const SceneMesh& mesh : scene.meshes)
         d.meshes.push_back({mesh.material, mesh.pool, mesh.indices.size(), mesh.bounds});
     d.dynamic_objects = scene.dynamic_objects;
+    d.static_instances = scene.static_instances;
+    d.instancing = scene.instancing;
     d.path = loaded.path;
     return d;
 }

@@ -47,6 +47,8 @@ struct SceneDescription {
     std::vector<BatchRecord> batches;
     std::vector<MeshRecord> meshes;
     std::vector<DynamicObject> dynamic_objects;
+    std::vector<StaticInstance> static_instances;
+    InstancingReport instancing;
     CameraPath path;
 };
 

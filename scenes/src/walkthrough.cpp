@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "placement.h"
 #include "rhview/scenes/camera_path.h"
 #include "rhview/scenes/scene.h"
 
@@ -15,17 +16,30 @@ namespace {
 
 constexpr int kCells = 48;
 
+/// Each once.
+std::vector<std::uint32_t> used_vertices(const SceneMesh& mesh) {
+    std::vector<std::uint32_t> vertices(mesh.indices.begin(), mesh.indices.end());
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
 /// How low the static vertices reach in each cell of a grid over x and z: the ground, under houses and trees
 /// too.
 class Ground {
   public:
     explicit Ground(const Scene& scene) : bounds_(scene.bounds()), low_(kCells * kCells, kUnknown) {
         for (const SceneBatch& batch : scene.batches)
-            for (const std::uint32_t index : batch.indices) {
-                const glm::vec3& p = scene.pools[batch.pool].positions[index];
-                float& low = low_[cell(p.x, p.z)];
-                low = std::min(low, p.y);
-            }
+            for (const std::uint32_t index : batch.indices) add(scene.pools[batch.pool].positions[index]);
+        std::vector<std::vector<std::uint32_t>> vertices(scene.meshes.size());
+        for (const StaticInstance& instance : scene.static_instances) {
+            const SceneMesh& mesh = scene.meshes[index_of(instance.mesh)];
+            std::vector<std::uint32_t>& used = vertices[index_of(instance.mesh)];
+            if (used.empty()) used = used_vertices(mesh);
+            const Placement placement(instance.scene_from_mesh);
+            for (const std::uint32_t vertex : used)
+                add(placement.position(scene.pools[mesh.pool].positions[vertex]));
+        }
         for (int i = 0; i < kCells && std::ranges::find(low_, kUnknown) != low_.end(); ++i) fill_gaps();
     }
 
@@ -40,6 +54,11 @@ class Ground {
 
   private:
     static constexpr float kUnknown = std::numeric_limits<float>::infinity();
+
+    void add(const glm::vec3& p) {
+        float& low = low_[cell(p.x, p.z)];
+        low = std::min(low, p.y);
+    }
 
     [[nodiscard]] std::size_t cell(float x, float z) const {
         const auto place = [](float value, float low, float high) {

@@ -90,6 +90,7 @@ TEST_F(RhoFileTest, gives_back_the_sections_that_were_written) {
     EXPECT_EQ(file->section(kText, 2)->size(), 70u);
     EXPECT_EQ(file->section(kNothing, 1)->size(), 0u);
     EXPECT_TRUE(file->has(kText));
+    EXPECT_EQ(file->section(kText, 3, 2)->size(), 70u);
     EXPECT_FALSE(file->has(section_tag("GONE")));
     EXPECT_NE(file->section(section_tag("GONE"), 1).error().message.find("section GONE is missing"),
               std::string::npos);

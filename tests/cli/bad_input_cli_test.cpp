@@ -119,7 +119,7 @@ TEST_F(BadInput, timing_constants) {
     for (const char* set :
          {"c1", "c1=", "c1=fast", "c1=-1,c3=2", "c1=nan,c3=2", "c1=1e999,c3=1", "c1=1,c3=2x"})
         refuse(std::string("walk soup --set ") + set, {"--set", "name=value"}, 0);
-    refuse("walk soup --set c1=1,c2=3", {"--set c2=3", "c0, c1, c3 and query"}, 0);
+    refuse("walk soup --set c1=1,c2=3", {"--set c2=3", "c0, c1, c3, query and box"}, 0);
     refuse("walk soup --set c1=1,c1=2,c3=1", {"twice"}, 0);
     refuse("walk soup --profile nowhere.json", {"nowhere.json"}, 0);
     write_file(folder_ / "profile.json", R"({"schema": "rhview.profile/1", "c1_ns": -1})");

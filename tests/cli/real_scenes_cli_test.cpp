@@ -16,13 +16,16 @@ class RealScenes : public ProgramTest, public testing::WithParamInterface<RealSc
 TEST_P(RealScenes, no_method_misses_a_pixel) {
     const std::filesystem::path file = std::filesystem::path(RHVIEW_SHARED_SCENES_DIR) / GetParam().file;
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real test scenes are not here: " << file;
-    for (const char* method : {"none", "frustum", "octree", "rhview-seed"}) {
-        const nlohmann::json walk =
-            walk_json("'" + file.string() +
-                      "' --frames 6 --warmup 0 --size 320x180 --leaf 500 --check --method " + method);
-        EXPECT_EQ(walk["scene"]["triangles"], GetParam().triangles);
-        EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0) << method;
-        EXPECT_GT(walk["summary"]["indices"]["mean"], 0) << method;
+    for (const std::string method : {"none", "frustum", "octree", "rhview-seed"}) {
+        for (const std::string how : {"flatten", "keep", "auto"}) {
+            const nlohmann::json walk = walk_json("'" + file.string() +
+                                                  "' --frames 6 --warmup 0 --size 320x180 --leaf 500 --check "
+                                                  "--set c1=3.5,c3=220 --method " +
+                                                  method + " --instances " + how);
+            EXPECT_EQ(walk["scene"]["triangles"], GetParam().triangles);
+            EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0) << method << " " << how;
+            EXPECT_GT(walk["summary"]["indices"]["mean"], 0) << method << " " << how;
+        }
     }
 }
 

@@ -10,9 +10,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "random_boxes.h"
 #include "rhview/base/rounding.h"
 #include "rhview/frustum/frustum.h"
-#include "uniform.h"
 
 namespace rhview {
 namespace {
@@ -34,18 +34,6 @@ unsigned broken_conditions(const glm::vec4& c, ClipDepth depth) {
     const float near_limit = depth == ClipDepth::NegativeOneToOne ? -c.w : 0.0f;
     return (c.x < -c.w ? 1u : 0u) | (c.x > c.w ? 2u : 0u) | (c.y < -c.w ? 4u : 0u) | (c.y > c.w ? 8u : 0u) |
            (c.z < near_limit ? 16u : 0u) | (c.z > c.w ? 32u : 0u);
-}
-
-View random_view(Uniform& uniform, const glm::dvec3& eye, ClipDepth depth) {
-    const double near = uniform.log(1e-3, 10.0);
-    const double far = near * uniform.log(10.0, 1e6);
-    View view;
-    view.clip_depth = depth;
-    view.camera_from_world = look_along(eye, uniform.point(1.0), {0.1, 1.0, 0.05});
-    view.clip_from_camera = uniform(0, 1) < 0.2
-                                ? orthographic(uniform.log(0.1, 1e3), uniform.log(0.1, 1e3), near, far, depth)
-                                : perspective(uniform(0.02, 2.9), uniform(0.3, 3.0), near, far, depth);
-    return view;
 }
 
 struct Case {

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <limits>
+
+#include "rhview/frustum/box_batch.h"
 
 namespace rhview {
 namespace {
@@ -109,8 +112,10 @@ TEST(Frustum, boxes_without_a_number_or_without_an_end_are_never_outside_nor_ins
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInf = std::numeric_limits<float>::infinity();
     for (const Aabb& box :
-         {Aabb{glm::vec3(kNan), glm::vec3(kNan)}, Aabb{glm::vec3(0, kNan, 0), glm::vec3(1)}, Aabb{},
-          Aabb{glm::vec3(-kInf), glm::vec3(kInf)}, Aabb{glm::vec3(-3e38f), glm::vec3(3e38f)}})
+         {Aabb{glm::vec3(kNan), glm::vec3(kNan)}, Aabb{glm::vec3(0, kNan, 0), glm::vec3(1)},
+          Aabb{glm::vec3(0, 0, 50), glm::vec3(1, kNan, 51)},
+          Aabb{glm::vec3(kNan, 0, 50), glm::vec3(1, 1, 51)}, Aabb{}, Aabb{glm::vec3(-kInf), glm::vec3(kInf)},
+          Aabb{glm::vec3(-3e38f), glm::vec3(3e38f)}})
         EXPECT_EQ(classify_all(frustum, box), Containment::Intersecting);
 }
 
@@ -118,6 +123,28 @@ TEST(Frustum, point_sized_box_on_the_axis_is_inside) {
     const Frustum frustum = make_frustum(straight_view());
     EXPECT_EQ(classify_all(frustum, cube({0, 0, -50}, 0)), Containment::Inside);
     EXPECT_EQ(classify_all(frustum, cube({0, 0, -500}, 0)), Containment::Outside);
+}
+
+TEST(Frustum, of_a_singular_view_has_nothing_outside_where_contracts_are_not_checked) {
+    const AssertHandler previous = set_assert_handler([](const char*, const char*, int) {});
+    for (const View& view : {View{glm::dmat4(0.0), straight_view().clip_from_camera, ClipDepth::ZeroToOne},
+                             View{glm::dmat4(1.0), glm::dmat4(0.0), ClipDepth::ZeroToOne},
+                             View{glm::dmat4(std::nan("")), glm::dmat4(1.0), ClipDepth::ZeroToOne}}) {
+        const Frustum frustum = make_frustum(view);
+        for (const glm::vec3 place : {glm::vec3(0, 0, 50), glm::vec3(1e6f), glm::vec3(0)})
+            EXPECT_NE(classify_all(frustum, cube(place, 1)), Containment::Outside);
+    }
+    set_assert_handler(previous);
+}
+
+TEST(Frustum, an_inverted_box_gets_the_same_answer_from_one_and_from_many) {
+    const Frustum frustum = make_frustum(straight_view());
+    const std::vector<Aabb> boxes{{glm::vec3(1, 1, -49), glm::vec3(-1, -1, -51)},
+                                  {glm::vec3(9, 9, 60), glm::vec3(8, 8, 50)}};
+    std::vector<std::uint64_t> visible(1);
+    cull_boxes(frustum, boxes, visible);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        EXPECT_EQ(visible[0] >> i & 1u, classify_all(frustum, boxes[i]) != Containment::Outside ? 1u : 0u);
 }
 
 #if RHVIEW_ENABLE_ASSERTS

@@ -10,11 +10,12 @@
 #include "../rhoctree/random_geometry.h"
 #include "rhview/rhoctree/baked_octree.h"
 #include "rhview/scenes/baked_scene.h"
+#include "rhview/scenes/scene_builder.h"
 
 namespace rhview {
 
 /// Writes small baked files of every kind into `folder`, for mutations to start from: many batches, replicas,
-/// one leaf, nothing; dynamic objects, two vertex formats. Their names.
+/// one leaf, nothing; instances, dynamic objects, two vertex formats. Their names.
 inline std::vector<std::filesystem::path> write_corpus(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     std::vector<std::filesystem::path> files;
@@ -42,6 +43,22 @@ inline std::vector<std::filesystem::path> write_corpus(const std::filesystem::pa
     write_octree("nothing.rho", RandomGeometry(4, 1, 0), {});
     const SceneAndPath scene = make_named_scene("soup:triangles=1000").value();
     write("scene.rho", [&](RhoWriter& writer) { add_scene_sections(writer, scene, {"soup", "the tests"}); });
+    SceneBuilder builder;
+    const MaterialId stone = builder.add_material({"stone", glm::vec3(0.5f), true, false});
+    const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const std::vector<std::uint32_t> faces{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    const MeshId mesh = builder.add_mesh(stone, {corners, {}, {}, faces}).value();
+    for (int i = 0; i < 5; ++i) {
+        glm::dmat4 place(1.0);
+        place[0][0] = i % 2 == 0 ? 2.0 : -1.0;
+        place[3][2] = 3.0 * i;
+        builder.add_instance(mesh, place);
+    }
+    SceneAndPath stones{builder.finish("stones").value(), {}};
+    stones.path = walkthrough_of_scene(stones.scene);
+    write("stones.rho", [&](RhoWriter& writer) {
+        add_scene_sections(writer, stones, {"stones", "the tests"});
+    });
     const SceneAndPath farm = make_named_scene("farm:instances=3,mesh=1000").value();
     const std::vector<TriangleBatch> batches = farm.scene.triangle_batches();
     const RhOctree octree = build_octree(batches, {.max_leaf_triangles = 2000}).value();

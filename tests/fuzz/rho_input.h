@@ -3,7 +3,10 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <span>
 
 #include "../plan_everything.h"
@@ -31,6 +34,17 @@ inline int use_baked_file(std::span<const std::byte> bytes) {
         for (const TriangleBatch& batch : scene.triangle_batches())
             for (const std::uint32_t index : batch.indices)
                 if (index >= batch.positions.size()) std::abort();
+        for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
+            const std::size_t mesh = index_of(scene.object_mesh(ObjectId{i}));
+            if (mesh >= scene.meshes.size()) std::abort();
+            const std::size_t vertices = scene.pools[scene.meshes[mesh].pool].positions.size();
+            for (const std::uint32_t index : scene.meshes[mesh].indices)
+                if (index >= vertices) std::abort();
+        }
+        for (const StaticInstance& instance : scene.static_instances) {
+            const glm::dmat3 back = glm::inverse(glm::dmat3(instance.scene_from_mesh));
+            if (instance.bounds.is_empty() || !std::isfinite(glm::determinant(back))) std::abort();
+        }
         if (!validate(baked->scene.path.view_of_frame(1, 3, 1.5, ClipDepth::ZeroToOne))) std::abort();
     }
     return accepted;

@@ -23,6 +23,24 @@ TEST_F(GlTest, headless_context_names_its_device) {
     EXPECT_EQ(context_->device().clip_control, epoxy_gl_version() >= 45);
 }
 
+TEST_F(GlTest, a_reset_of_the_device_would_be_told) {
+    EXPECT_TRUE(check_device().ok());
+    GLint strategy = 0;
+    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    EXPECT_EQ(context_->device().tells_loss, strategy == GL_LOSE_CONTEXT_ON_RESET);
+    if (context_->device().renderer.find("llvmpipe") != std::string::npos) {
+        EXPECT_TRUE(context_->device().box_pass);
+    }
+    EXPECT_EQ(context_->device().box_pass, executor_->has_box_pass());
+}
+
+TEST(ResetStatus, has_a_sentence_for_each_cause) {
+    EXPECT_EQ(describe_reset(GL_NO_ERROR), "");
+    EXPECT_NE(describe_reset(GL_GUILTY_CONTEXT_RESET).find("what this context drew"), std::string::npos);
+    EXPECT_NE(describe_reset(GL_INNOCENT_CONTEXT_RESET).find("another program"), std::string::npos);
+    EXPECT_NE(describe_reset(GL_UNKNOWN_CONTEXT_RESET).find("was reset"), std::string::npos);
+}
+
 TEST_F(GlTest, drivers_debug_messages_reach_the_log) {
     const LogCallback previous = set_log_callback([](LogLevel level, std::string_view message) {
         if (level == LogLevel::Error) logged = message;

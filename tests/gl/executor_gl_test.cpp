@@ -10,6 +10,7 @@
 #include "gl_fixture.h"
 #include "rhview/gl/line_drawer.h"
 #include "rhview/gl/timer.h"
+#include "rhview/scenes/static_instances.h"
 
 namespace rhview::gl {
 namespace {
@@ -35,7 +36,7 @@ FramePlan whole_of(const Scene& scene) {
             plan.opaque.push_back({BatchId{b}, first + object.first_index, object.index_count});
         first += static_cast<std::uint32_t>(scene.batches[b].indices.size());
     }
-    for (std::uint32_t i = 0; i < scene.dynamic_objects.size(); ++i) plan.objects.push_back(ObjectId{i});
+    for (std::uint32_t i = 0; i < scene.object_count(); ++i) plan.objects.push_back(ObjectId{i});
     return plan;
 }
 
@@ -126,6 +127,72 @@ TEST_F(GlTest, smooth_normals_are_lit_differently_from_each_side_of_a_surface) {
     const std::uint8_t* row = picture.row(60);
     EXPECT_GT(row[3 * 47 + 1], row[3 * 113 + 1] + 50);
     EXPECT_GT(row[3 * 113 + 1], 30);
+}
+
+/// One mesh per way to look: smooth normals, vertex colours, two-sided; each placed straight, turned and
+/// mirrored, of one size: where axes are scaled apart, normals that are interpolated before they are turned
+/// shade otherwise.
+Scene instances_of_all_kinds() {
+    SceneBuilder builder(glm::dvec3(1e5, 0, 0));
+    const MaterialId plain = builder.add_material({"plain", {0.9f, 0.5f, 0.1f}, false, false});
+    const MaterialId leaf = builder.add_material({"leaf", {0.1f, 0.9f, 0.1f}, true, false});
+    static const std::vector<glm::vec3> normals{{0.6f, 0, 0.8f}, {-0.6f, 0, 0.8f}, {0, 0.8f, 0.6f}};
+    static const std::vector<PackedColour> colours{pack_colour({1, 0, 0}), pack_colour({0, 1, 0}),
+                                                   pack_colour({0, 0, 1})};
+    static const std::vector<std::uint32_t> both_sides{0, 1, 2, 0, 2, 1};
+    const MeshPiece pieces[] = {{kTrianglePositions, normals, {}, kTriangleIndices},
+                                {kTrianglePositions, {}, colours, kTriangleIndices},
+                                {kTrianglePositions, normals, colours, both_sides}};
+    for (int p = 0; p < 3; ++p) {
+        for (const MaterialId material : {plain, leaf}) {
+            const MeshId mesh = builder.add_mesh(material, pieces[p]).value();
+            for (int i = 0; i < 4; ++i) {
+                glm::dmat4 place = glm::translate(
+                    glm::dmat4(1.0), glm::dvec3(1e5 + 2.4 * i - 4, 2.4 * p - 2, material == leaf ? -4 : 0));
+                place = glm::scale(place, glm::dvec3(i % 2 ? -0.9 : 0.9, 0.9, 0.9));
+                place = glm::translate(place, {0, 0, -5});
+                place = glm::rotate(place, 0.4 * i, glm::dvec3(0, 1, 0.2));
+                EXPECT_TRUE(builder.add_instance(mesh, glm::translate(place, {0, 0, 5})));
+            }
+        }
+    }
+    return builder.finish("kinds").value();
+}
+
+TEST_F(GlTest, instances_look_as_if_they_were_flattened) {
+    const Scene kept = instances_of_all_kinds();
+    Scene flattened = kept;
+    ASSERT_TRUE(settle_instances(flattened, {InstancePolicy::Flatten, {}, 0}).ok());
+    ASSERT_EQ(flattened.object_count(), 0u);
+    ASSERT_EQ(kept.object_count(), 24u);
+    for (const double side : {1.0, -1.0}) {
+        const View view = view_at({1e5, 0, side > 0 ? 4.0 : -14.0}, {0, 0, -side});
+        const SceneBuffers kept_buffers = SceneBuffers::upload(kept).value();
+        const std::vector<float> kept_depths = depths_of(whole_of(kept), kept_buffers, view);
+        const Picture kept_picture = target_->read_colour();
+        EXPECT_EQ(counters_.draw_calls, 24u);
+        EXPECT_EQ(counters_.indices, 3u * kept.static_triangles());
+        const SceneBuffers flat_buffers = SceneBuffers::upload(flattened).value();
+        const std::vector<float> flat_depths = depths_of(whole_of(flattened), flat_buffers, view);
+        const Picture flat_picture = target_->read_colour();
+        EXPECT_LE(counters_.material_changes, 6u);
+        EXPECT_GT(covered_pixels(kept_depths), 2000u);
+        // Edges may differ by a pixel, what both cover by little: other arithmetic leads there.
+        std::size_t other_pixels = 0;
+        for (int y = 0; y < kept_picture.height(); ++y)
+            for (int x = 0; x < kept_picture.width(); ++x) {
+                int difference = 0;
+                for (int c = 0; c < 3; ++c)
+                    difference = std::max(difference, std::abs(kept_picture.row(y)[3 * x + c] -
+                                                               flat_picture.row(y)[3 * x + c]));
+                other_pixels += difference > 3;
+            }
+        EXPECT_LT(other_pixels, covered_pixels(kept_depths) / 200);
+        std::size_t other_depths = 0;
+        for (std::size_t i = 0; i < kept_depths.size(); ++i)
+            other_depths += std::abs(kept_depths[i] - flat_depths[i]) > 1e-5f;
+        EXPECT_LT(other_depths, covered_pixels(kept_depths) / 200);
+    }
 }
 
 TEST_F(GlTest, state_of_the_application_is_put_back) {

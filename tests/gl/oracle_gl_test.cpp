@@ -17,8 +17,8 @@
 namespace rhview::gl {
 namespace {
 
-/// Scattered triangles in three materials, one of them two-sided, and placed objects: turned, mirrored,
-/// squashed.
+/// Scattered triangles in three materials, one of them two-sided, and placed objects and instances: turned,
+/// mirrored, squashed.
 Scene scattered(const glm::dvec3& origin) {
     SceneBuilder builder(origin);
     const RandomGeometry geometry(41, 3, 1500, 60.0f);
@@ -37,6 +37,18 @@ Scene scattered(const glm::dvec3& origin) {
             glm::translate(to_world, glm::dvec3(uniform(-60, 60), uniform(-9, 9), uniform(-60, 60)));
         place = glm::rotate(place, uniform(0, 6), glm::dvec3(0.3, 1, 0.2));
         builder.add_dynamic(mesh, glm::scale(place, glm::dvec3(i % 2 ? -4.0 : 4.0, uniform(0.1, 5), 2.0)));
+    }
+    const MeshPiece clump{geometry.positions, {}, {}, std::span(geometry.indices[1]).first(300)};
+    for (const MaterialId material : {MaterialId{0}, MaterialId{2}}) {
+        const bool small = material == MaterialId{0};
+        const MeshId shape = builder.add_mesh(material, small ? triangle_piece() : clump).value();
+        for (int i = 0; i < 30; ++i) {
+            glm::dmat4 place =
+                glm::translate(to_world, glm::dvec3(uniform(-60, 60), uniform(-9, 9), uniform(-60, 60)));
+            place = glm::rotate(place, uniform(0, 6), glm::dvec3(0.2, 1, 0.5));
+            const glm::dvec3 scale(i % 2 ? -0.3 : 0.3, uniform(0.1, 0.5), 0.2);
+            EXPECT_TRUE(builder.add_instance(shape, glm::scale(place, (small ? 12.0 : 1.0) * scale)));
+        }
     }
     return builder.finish("scattered").value();
 }
@@ -98,9 +110,8 @@ TEST_P(Oracle, culled_frames_miss_no_pixel_from_random_views) {
     const auto [depth, offset, far] = GetParam();
     const glm::dvec3 origin(offset, -offset, 2.0 * offset);
     const Scene scene = scattered(origin);
-    std::vector<Aabb> boxes;
-    for (const DynamicObject& object : scene.dynamic_objects)
-        boxes.push_back(transform_box(object.scene_from_mesh, scene.meshes[index_of(object.mesh)].bounds));
+    const std::vector<Aabb> boxes = scene.object_boxes();
+    ASSERT_EQ(boxes.size(), 100u);
     std::vector<std::uint32_t> counts;
     for (const SceneBatch& batch : scene.batches)
         counts.push_back(static_cast<std::uint32_t>(batch.indices.size()));
@@ -137,6 +148,32 @@ INSTANTIATE_TEST_SUITE_P(Views, Oracle,
                                          OracleCase{ClipDepth::ReversedZeroToOne, 1e7,
                                                     std::numeric_limits<double>::infinity()},
                                          OracleCase{ClipDepth::NegativeOneToOne, 1e5, 1e6}));
+
+TEST_F(GlTest, every_method_draws_a_scene_of_instances_alone) {
+    Scene scene = scattered(glm::dvec3(0.0));
+    scene.batches.clear();
+    scene.dynamic_objects.clear();
+    const std::vector<Aabb> boxes = scene.object_boxes();
+    DrawEverything reference({}, scene.bounds());
+    const std::vector<Method> methods = every_method(scene);
+    FramePlan plan, everything;
+    std::size_t covered = 0, drawn = 0;
+    for (int i = 0; i < 8; ++i) {
+        const FrameInput input{view_at({8.0 * i - 30, 2, 50}, {0.2 * i - 0.7, 0, -1}), scene.origin, boxes};
+        reference.plan(input, everything);
+        for (const Method& method : methods) {
+            method.planner->plan(input, plan);
+            const std::vector<float> whole = depths_of(everything, method.buffers, input.culling_view);
+            const std::vector<float> culled = depths_of(plan, method.buffers, input.culling_view);
+            EXPECT_EQ(counters_.draw_calls, plan.objects.size());
+            ASSERT_EQ(count_missing_pixels(culled, whole), 0u) << "view " << i;
+            covered += covered_pixels(culled);
+            drawn += plan.objects.size();
+        }
+    }
+    EXPECT_GT(covered, 8u * 6 * 300);
+    EXPECT_LT(drawn, 8u * 6 * 40);
+}
 
 TEST_F(GlTest, oracle_sees_a_single_missing_triangle) {
     SceneBuilder builder;

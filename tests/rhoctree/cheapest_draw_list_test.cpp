@@ -62,8 +62,13 @@ Matrix product(const Matrix& a, const Matrix& b) {
 class MatrixOracle {
   public:
     MatrixOracle(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
-                 const DrawCosts& costs, BatchId batch)
-        : octree_(octree), frustum_(frustum), viewpoint_(viewpoint), costs_(costs), batch_(batch) {}
+                 const DrawCosts& costs, BatchId batch, std::span<const NodeAlternative> alternatives = {})
+        : octree_(octree),
+          frustum_(frustum),
+          viewpoint_(viewpoint),
+          costs_(costs),
+          batch_(batch),
+          alternatives_(alternatives) {}
 
     [[nodiscard]] double least() const {
         const Matrix c = of_node(0);
@@ -83,6 +88,18 @@ class MatrixOracle {
         const double s = costs_.index_ns * count;
         return {{{costs_.draw_ns + s, costs_.draw_ns + s}, {s, s}}};
     }
+    [[nodiscard]] const NodeAlternative* alternative_of(NodeId node, std::uint32_t piece) const {
+        const auto found = std::ranges::find_if(alternatives_, [&](const NodeAlternative& alternative) {
+            return alternative.node == node && alternative.piece == piece;
+        });
+        return found == alternatives_.end() ? nullptr : &*found;
+    }
+    [[nodiscard]] Matrix offered(const NodeAlternative& alternative, std::uint32_t count) const {
+        Matrix c = shown(count);
+        const double r = alternative.draw_ns + alternative.index_ns * count;
+        for (std::size_t i = 0; i < 2; ++i) c[i][0] = std::min(c[i][0], r);
+        return c;
+    }
     [[nodiscard]] Matrix of_clusters(std::uint32_t first, std::uint32_t count) const {
         Matrix c = hidden(0);
         for (const NormalCluster& cluster : octree_.clusters().subspan(first, count))
@@ -96,12 +113,20 @@ class MatrixOracle {
         const auto range = std::ranges::find(ranges, batch_, &DrawRange::batch);
         if (range == ranges.end()) return hidden(0);
         if (is_outside(node.bounds)) return hidden(range->index_count);
-        const auto pieces = octree_.pieces().subspan(node.first_piece, node.piece_end - node.first_piece);
+        if (const NodeAlternative* whole = alternative_of(NodeId{id}, NodeAlternative::kWhole))
+            return offered(*whole, range->index_count);
+        const bool leaf = octree_.is_leaf(NodeId{id});
+        const std::uint32_t piece_end = leaf ? node.piece_end : octree_.nodes()[id + 1].first_piece;
+        const auto pieces = octree_.pieces().subspan(node.first_piece, piece_end - node.first_piece);
         const auto piece = std::ranges::find(pieces, range->first_index, &OctreePiece::first_index);
         Matrix c = hidden(0);
         if (piece != pieces.end() && piece->batch == batch_ && piece->index_count == range->index_count) {
-            c = is_outside(piece->bounds) ? hidden(piece->index_count)
-                                          : of_clusters(piece->first_cluster, piece->cluster_count);
+            const auto number = static_cast<std::uint32_t>(&*piece - octree_.pieces().data());
+            if (const NodeAlternative* of_piece = alternative_of(NodeId{id}, number))
+                c = offered(*of_piece, piece->index_count);
+            else
+                c = is_outside(piece->bounds) ? hidden(piece->index_count)
+                                              : of_clusters(piece->first_cluster, piece->cluster_count);
         } else {
             for (std::uint32_t child = id + 1; child < node.end; child = octree_.nodes()[child].end)
                 c = product(c, of_node(child));
@@ -119,7 +144,36 @@ class MatrixOracle {
     const Viewpoint& viewpoint_;
     DrawCosts costs_;
     BatchId batch_;
+    std::span<const NodeAlternative> alternatives_;
 };
+
+/// Nodes and pieces of leaves in view, none within another, each with random prices.
+std::vector<NodeAlternative> random_alternatives(const RhOctree& octree, const Frustum& frustum,
+                                                 const DrawCosts& costs, Uniform& uniform) {
+    std::vector<NodeAlternative> alternatives;
+    const std::span<const OctreeNode> nodes = octree.nodes();
+    for (std::uint32_t i = 0; i < nodes.size();) {
+        PlaneMask mask = frustum.mask;
+        if (classify(frustum, nodes[i].bounds, mask) == Containment::Outside) {
+            i = nodes[i].end;
+            continue;
+        }
+        const auto offer = [&](std::uint32_t piece) {
+            const double index_ns = uniform(0, 1) * costs.index_ns;
+            alternatives.push_back({NodeId{i}, piece, index_ns, uniform(0, 1.5) * costs.draw_ns});
+        };
+        if (uniform(0, 1) < 0.15) {
+            offer(NodeAlternative::kWhole);
+            i = nodes[i].end;
+            continue;
+        }
+        if (octree.is_leaf(NodeId{i}))
+            for (std::uint32_t p = nodes[i].first_piece; p < nodes[i].piece_end; ++p)
+                if (uniform(0, 1) < 0.3) offer(p);
+        ++i;
+    }
+    return alternatives;
+}
 
 struct Case {
     std::uint32_t leaf;
@@ -152,6 +206,88 @@ TEST_P(CheapestDrawList, equals_the_min_plus_matrices_and_costs_what_it_says) {
         EXPECT_NEAR(list.predicted_ns, expected, 1e-9 * expected);
         EXPECT_NEAR(list.predicted_ns, price(list.ranges, costs), 1e-9 * expected);
     }
+}
+
+TEST_P(CheapestDrawList, leaves_nodes_to_their_alternatives_exactly_where_that_is_cheaper) {
+    const auto [leaf, record, budget, costs] = GetParam();
+    const Balls balls(99, 3, 60, 150);
+    const RhOctree octree = build_octree(balls.batches(), options_of(leaf, record, budget, costs)).value();
+    Uniform uniform(100);
+    DrawListSolver solver;
+    DrawList list;
+    std::size_t offered = 0, taken = 0;
+    for (int i = 0; i < 60; ++i) {
+        const View view = random_view(uniform);
+        const Frustum frustum = make_frustum(view);
+        const Viewpoint viewpoint = make_viewpoint(view);
+        const std::vector<NodeAlternative> alternatives =
+            random_alternatives(octree, frustum, costs, uniform);
+        solver.solve(octree, frustum, viewpoint, costs, list, alternatives);
+        double expected = 0.0, listed = price(list.ranges, costs);
+        std::set<BatchId> drawn;
+        for (const DrawRange& range : list.ranges) drawn.insert(range.batch);
+        for (std::uint32_t b = 0; b < 3; ++b)
+            expected += MatrixOracle(octree, frustum, viewpoint, costs, BatchId{b}, alternatives).least();
+        expected += costs.call_ns * static_cast<double>(drawn.size());
+        std::size_t ranges_offered = 0;
+        for (const NodeAlternative& alternative : alternatives)
+            ranges_offered +=
+                alternative.piece != NodeAlternative::kWhole ? 1 : octree.ranges(alternative.node).size();
+        for (const AlternativeRange& range : list.alternatives) {
+            const NodeAlternative& alternative = alternatives[range.alternative];
+            const auto ranges = octree.ranges(alternative.node);
+            EXPECT_NE(std::ranges::find(ranges, range.range), ranges.end());
+            listed += alternative.draw_ns + alternative.index_ns * range.range.index_count;
+        }
+        EXPECT_NEAR(list.predicted_ns, expected, 1e-9 * expected);
+        EXPECT_NEAR(list.predicted_ns, listed, 1e-9 * expected);
+        offered += ranges_offered;
+        taken += list.alternatives.size();
+    }
+    EXPECT_GT(offered, 30u);
+    EXPECT_GT(taken, 0u);
+}
+
+TEST_P(CheapestDrawList, shows_every_front_facing_triangle_in_view_or_leaves_it_to_an_alternative) {
+    const auto [leaf, record, budget, costs] = GetParam();
+    const Balls balls(101, 3, 50, 150);
+    const std::vector<TriangleBatch> batches = balls.batches();
+    const RhOctree octree = build_octree(batches, options_of(leaf, record, budget, costs)).value();
+    Uniform uniform(102);
+    DrawListSolver solver;
+    DrawList with, without;
+    std::size_t left = 0;
+    for (int i = 0; i < 40; ++i) {
+        const View view = random_view(uniform);
+        const Frustum frustum = make_frustum(view);
+        const Viewpoint viewpoint = make_viewpoint(view);
+        const std::vector<NodeAlternative> alternatives =
+            random_alternatives(octree, frustum, costs, uniform);
+        solver.solve(octree, frustum, viewpoint, costs, with, alternatives);
+        std::vector<DrawRange> to_show;
+        append_ranges_to_show(octree, frustum, viewpoint, to_show);
+        // Corners are not shared: a triangle is known by its first index.
+        std::vector<bool> drawn(balls.positions.size(), false);
+        const auto mark = [&](const DrawRange& range) {
+            for (std::uint32_t k = 0; k < range.index_count; k += 3)
+                drawn[octree.indices()[range.first_index + k]] = true;
+        };
+        for (const DrawRange& range : with.ranges) mark(range);
+        for (const AlternativeRange& range : with.alternatives) mark(range.range);
+        const auto faces_eye = [&](std::uint32_t first) {
+            const auto at = [&](std::uint32_t k) {
+                return glm::dvec3(balls.positions[octree.indices()[first + k]]);
+            };
+            return glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), view.eye() - at(0)) > 0.0;
+        };
+        for (const DrawRange& range : to_show)
+            for (std::uint32_t k = 0; k < range.index_count; k += 3)
+                ASSERT_TRUE(!faces_eye(range.first_index + k) ||
+                            drawn[octree.indices()[range.first_index + k]])
+                    << "view " << i;
+        left += with.alternatives.size();
+    }
+    EXPECT_GT(left, 0u);
 }
 
 TEST_P(CheapestDrawList, shows_every_front_facing_triangle_in_view) {

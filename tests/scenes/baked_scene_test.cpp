@@ -12,6 +12,7 @@
 
 #include "../rho_bytes.h"
 #include "rhview/scenes/scene_builder.h"
+#include "rhview/scenes/static_instances.h"
 
 namespace rhview {
 namespace {
@@ -53,6 +54,12 @@ SceneAndPath small_scene() {
     const std::optional<MeshId> mesh = builder.add_mesh(leaves, {positions, {}, colours, indices});
     builder.add_dynamic(*mesh, there);
     builder.add_dynamic(*mesh, there * 2.0 - glm::dmat4(there));
+    const std::optional<MeshId> stone = builder.add_mesh(wall, {positions, normals, {}, indices});
+    for (const double x : {1.0, -2.0}) {
+        glm::dmat4 place = there;
+        place[0][0] = x;
+        builder.add_instance(*stone, place);
+    }
     builder.add_warning("something was left out");
     Scene scene = builder.finish("small").value();
     CameraPath path = walkthrough_of_scene(scene);
@@ -95,6 +102,13 @@ void expect_equal(const SceneAndPath& a, const SceneAndPath& b) {
     ASSERT_EQ(a.scene.dynamic_objects.size(), b.scene.dynamic_objects.size());
     for (std::size_t i = 0; i < a.scene.dynamic_objects.size(); ++i)
         EXPECT_EQ(a.scene.dynamic_objects[i].scene_from_mesh, b.scene.dynamic_objects[i].scene_from_mesh);
+    ASSERT_EQ(a.scene.static_instances.size(), b.scene.static_instances.size());
+    for (std::size_t i = 0; i < a.scene.static_instances.size(); ++i) {
+        EXPECT_EQ(a.scene.static_instances[i].mesh, b.scene.static_instances[i].mesh);
+        EXPECT_EQ(a.scene.static_instances[i].scene_from_mesh, b.scene.static_instances[i].scene_from_mesh);
+        EXPECT_EQ(a.scene.static_instances[i].bounds, b.scene.static_instances[i].bounds);
+    }
+    EXPECT_EQ(a.scene.instancing, b.scene.instancing);
     ASSERT_EQ(a.path.keys.size(), b.path.keys.size());
     EXPECT_EQ(a.path.far_m, b.path.far_m);
     for (std::size_t i = 0; i < a.path.keys.size(); ++i) {
@@ -107,6 +121,8 @@ void expect_equal(const SceneAndPath& a, const SceneAndPath& b) {
 TEST(BakedScene, comes_back_as_it_was) {
     SceneAndPath scene = small_scene();
     scene.path.far_m = INFINITY;
+    ASSERT_TRUE(settle_instances(scene.scene, {InstancePolicy::Keep, {}, 77}).ok());
+    ASSERT_EQ(scene.scene.instancing.kept_placements, 2u);
     const Result<BakedScene> back = read(baked(scene));
     ASSERT_TRUE(back.ok()) << back.error().message;
     expect_equal(back->scene, scene);
@@ -164,6 +180,16 @@ TEST(BakedScene, what_contradicts_itself_is_told_by_name) {
         {[](auto& s) { s.scene.meshes[0].bounds.max.x = INFINITY; }, "mesh 0: its box is none"},
         {[=](auto& s) { s.scene.dynamic_objects[1].scene_from_mesh[3][0] = nan; }, "object 1: its placement"},
         {[](auto& s) { s.scene.dynamic_objects[1].scene_from_mesh[0][3] = 1; }, "object 1: its placement"},
+        {[](auto& s) { s.scene.static_instances[0].scene_from_mesh[0] = {}; },
+         "instance 0: its placement can't be drawn through"},
+        {[=](auto& s) { s.scene.static_instances[0].scene_from_mesh[3][1] = nan; },
+         "instance 0: its placement can't be drawn through"},
+        {[](auto& s) { s.scene.static_instances[1].scene_from_mesh[2][3] = 1; },
+         "instance 1: its placement can't be drawn through"},
+        {[](auto& s) { s.scene.static_instances[1].bounds = {}; }, "instance 1: its box is none"},
+        {[](auto& s) { s.scene.static_instances[1].bounds.max.y = INFINITY; }, "instance 1: its box is none"},
+        {[=](auto& s) { s.scene.instancing.chosen_ns = nan; }, "a modelled time"},
+        {[](auto& s) { s.scene.instancing.all_kept_ns = -1; }, "a modelled time"},
         {[](auto& s) { s.scene.materials[1].colour.x = NAN; }, "material 1: its colour"},
         {[=](auto& s) { s.scene.origin.z = nan; }, "origin is not finite"},
         {[](auto& s) { s.path.keys.clear(); }, "the camera path: "},
@@ -188,6 +214,36 @@ TEST(BakedScene, what_contradicts_itself_is_told_by_name) {
     file.bytes[file.offset_of("SCNE") + 40] ^= std::byte{1};
     file.repair();
     EXPECT_FALSE(read(file).ok());
+    // The second instance's mesh stands before the -2 that its placement begins with.
+    file = baked(good);
+    std::size_t place = file.offset_of("SCNE");
+    while (file.get<double>(place) != -2.0) ++place;
+    ASSERT_EQ(file.get<std::uint32_t>(place - 4), 1u);
+    file.set<std::uint32_t>(place - 4, 2);
+    file.repair();
+    ASSERT_FALSE(read(file).ok());
+    EXPECT_NE(read(file).error().message.find("instance 1: its mesh is not in the list"), std::string::npos);
+}
+
+TEST(BakedScene, description_without_instances_of_an_older_program_is_told) {
+    RhoBytes file = baked(small_scene());
+    file.set<std::uint32_t>(RhoBytes::entry(file.find("SCNE")) + RhoBytes::kEntryVersion, 1);
+    file.repair();
+    EXPECT_EQ(
+        read(file).error().message,
+        "x.rho: section SCNE is of version 1, and this program reads none before 2; bake the scene again "
+        "with this program");
+}
+
+TEST(BakedScene, scene_of_instances_alone_comes_back) {
+    SceneAndPath scene = small_scene();
+    scene.scene.batches.clear();
+    scene.scene.dynamic_objects.clear();
+    const Result<BakedScene> back = read(baked(scene));
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    expect_equal(back->scene, scene);
+    scene.scene.static_instances.clear();
+    EXPECT_FALSE(read(baked(scene)).ok());
 }
 
 TEST(BakedScene, description_of_absurd_counts_allocates_nothing_for_them) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "import_test_files.h"
+#include "rhview/scenes/static_instances.h"
 
 namespace rhview {
 namespace {
@@ -181,6 +182,54 @@ TEST(ImportGltf, node_transforms_compose_and_every_primitive_becomes_an_object) 
     ASSERT_EQ(scene->static_objects(), 4u);
     EXPECT_EQ(scene->batches[0].objects[0].bounds, (Aabb{glm::vec3(10, 0, 0), glm::vec3(12, 2, 2)}));
     EXPECT_EQ(scene->batches[0].objects[2].bounds, (Aabb{glm::vec3(10, 5, 0), glm::vec3(11, 6, 1)}));
+}
+
+TEST(ImportGltf, meshes_placed_repeatedly_are_stored_once_on_request) {
+    const TestFolder folder;
+    GltfFile file = cube_gltf();
+    file.json["meshes"].push_back(file.json["meshes"][0]);
+    // Twice where it can be drawn from its own space, once mirrored; flat and sheared; the second mesh once.
+    file.json["nodes"] = {{{"mesh", 0}, {"translation", {10, 0, 0}}},
+                          {{"mesh", 0}, {"scale", {-1, 2, 1}}},
+                          {{"mesh", 0}, {"scale", {1, 0, 1}}},
+                          {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 9, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}},
+                          {{"mesh", 1}, {"translation", {0, 5, 0}}}};
+    file.json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
+    const std::filesystem::path path = folder.write("repeated.glb", file.bytes());
+    const Result<Scene> flat = import_scene(path);
+    Result<Scene> kept = import_scene(path, RepeatedMeshes::Keep);
+    ASSERT_TRUE(flat.ok() && kept.ok());
+    expect_sound(kept, path);
+    EXPECT_TRUE(flat->static_instances.empty());
+    EXPECT_EQ(kept->static_instances.size(), 2u);
+    EXPECT_EQ(kept->meshes.size(), 1u);
+    EXPECT_EQ(kept->static_triangles(), flat->static_triangles());
+    EXPECT_EQ(kept->static_objects(), flat->static_objects());
+    EXPECT_EQ(kept->batch_triangles(), 3u * 12);
+    EXPECT_EQ(kept->vertex_count(), 4u * 8);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(kept->bounds().min[axis], flat->bounds().min[axis], 1e-5f);
+        EXPECT_NEAR(kept->bounds().max[axis], flat->bounds().max[axis], 1e-5f);
+    }
+    ASSERT_TRUE(settle_instances(*kept, {InstancePolicy::Flatten, {}, 0}).ok());
+    EXPECT_NEAR(signed_volume(*kept), signed_volume(*flat), 1e-4);
+    EXPECT_NEAR(signed_volume(*kept), 1.0 + 2.0 + 0.0 + 1.0 + 1.0, 1e-4);
+    EXPECT_EQ(kept->static_objects(), 5u);
+}
+
+TEST(ImportGltf, instances_of_a_mesh_without_a_finite_triangle_are_nothing) {
+    const TestFolder folder;
+    GltfFile file = cube_gltf();
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    file.add<float>({nan, 0, 0, 0, nan, 0, 0, 0, nan}, kFloat, "VEC3", 3);
+    file.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 2}}}}}}});
+    file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 1}}, {{"mesh", 1}}};
+    file.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const Result<Scene> scene = import_scene(folder.write("holes.glb", file.bytes()), RepeatedMeshes::Keep);
+    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    EXPECT_TRUE(scene->static_instances.empty());
+    EXPECT_EQ(scene->static_triangles(), 12u);
+    EXPECT_EQ(scene->dropped_triangles, 1u);
 }
 
 TEST(ImportGltf, default_scene_else_the_first_else_all_roots_are_read) {

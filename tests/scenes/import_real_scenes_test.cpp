@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "import_test_files.h"
+#include "rhview/scenes/static_instances.h"
 
 namespace rhview {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 struct RealScene {
     const char* file;
     std::uint64_t triangles;
+    std::uint64_t stored_triangles;
     std::uint64_t objects;
     std::size_t materials;
     std::ptrdiff_t two_sided;
@@ -47,22 +49,40 @@ TEST_P(ImportRealScene, has_the_published_counts) {
     expect_sound(scene, file);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shared, ImportRealScene,
-                         testing::Values(RealScene{"0ad_napata_reconstruction.glb", 8977234, 30055, 24, 8, 8},
-                                         RealScene{"intel_castle.glb", 1070891, 2114, 31, 0, 0},
-                                         RealScene{"intel_castle_market_substitute.glb", 1921276, 28414, 17,
-                                                   0, 0},
-                                         RealScene{"stk_candela_city.glb", 429312, 2865, 92, 3, 3},
-                                         RealScene{"bsp_nexuiz_ons-reborn.glb", 125091, 1795, 71, 2, 2},
-                                         RealScene{"rvm_pmuc_plm_sample.glb", 31746, 646, 4, 0, 0},
-                                         RealScene{"rvm_huldra_wd1_psup.glb", 85240, 2628, 1, 0, 0}),
-                         [](const testing::TestParamInfo<RealScene>& instance) {
-                             std::string name = instance.param.file;
-                             name = name.substr(0, name.rfind('.'));
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
-                             return name;
-                         });
+TEST_P(ImportRealScene, is_stored_as_its_author_did_and_comes_out_whole_when_flattened) {
+    const RealScene& expected = GetParam();
+    const std::filesystem::path file = std::filesystem::path(RHVIEW_SHARED_SCENES_DIR) / expected.file;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << expected.file << " is not on this machine";
+    Result<Scene> scene = import_scene(file, RepeatedMeshes::Keep);
+    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    EXPECT_EQ(scene->static_triangles(), expected.triangles);
+    EXPECT_EQ(scene->static_objects(), expected.objects);
+    EXPECT_EQ(scene->index_bytes() / 12, expected.stored_triangles);
+    for (const InstancePolicy policy : {InstancePolicy::Auto, InstancePolicy::Flatten}) {
+        ASSERT_TRUE(settle_instances(*scene, {policy, {3.5, 220}, kDefaultInstanceBudget}).ok());
+        EXPECT_EQ(scene->static_triangles(), expected.triangles);
+        EXPECT_EQ(scene->static_objects(), expected.objects);
+        expect_sound(scene, file);
+    }
+    EXPECT_TRUE(scene->static_instances.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shared, ImportRealScene,
+    testing::Values(RealScene{"0ad_napata_reconstruction.glb", 8977234, 697631, 30055, 24, 8, 8},
+                    RealScene{"intel_castle.glb", 1070891, 139619, 2114, 31, 0, 0},
+                    RealScene{"intel_castle_market_substitute.glb", 1921276, 172491, 28414, 17, 0, 0},
+                    RealScene{"stk_candela_city.glb", 429312, 124210, 2865, 92, 3, 3},
+                    RealScene{"bsp_nexuiz_ons-reborn.glb", 125091, 125091, 1795, 71, 2, 2},
+                    RealScene{"rvm_pmuc_plm_sample.glb", 31746, 31746, 646, 4, 0, 0},
+                    RealScene{"rvm_huldra_wd1_psup.glb", 85240, 85240, 2628, 1, 0, 0}),
+    [](const testing::TestParamInfo<RealScene>& instance) {
+        std::string name = instance.param.file;
+        name = name.substr(0, name.rfind('.'));
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
+        return name;
+    });
 
 }  // namespace
 }  // namespace rhview

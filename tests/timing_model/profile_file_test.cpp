@@ -51,6 +51,11 @@ TimingProfile full_profile(std::uint32_t seed) {
         profile.standard_errors_ns[index_of(term)] = random.spread(1e-300, 1e3);
     }
     profile.combination = seed % 2 == 0 ? Combination::Sum : Combination::MaxOfCpuAndGpu;
+    const auto answer = [&] {
+        return AnswerCosts{random.spread(1e-3, 1e6), random.spread(1e-3, 1e6), random.spread(1e-3, 1e6),
+                           random.spread(1e-3, 1e6), random.spread(1e-3, 1e6)};
+    };
+    profile.answer_costs = QueryCosts{answer(), answer()};
     profile.residuals =
         ResidualPercentiles{-random.uniform(), random.normal(), 0.1, 1.0 / 3.0, random.uniform()};
     profile.hold_out_error = random.uniform();
@@ -68,6 +73,7 @@ void expect_equal(const TimingProfile& a, const TimingProfile& b) {
     EXPECT_EQ(a.note, b.note);
     for (const Term term : kAllTerms) EXPECT_EQ(a.constant(term), b.constant(term)) << name_of(term);
     EXPECT_EQ(a.combination, b.combination);
+    EXPECT_EQ(a.answer_costs, b.answer_costs);
     EXPECT_EQ(a.standard_errors_ns, b.standard_errors_ns);
     ASSERT_EQ(a.residuals.has_value(), b.residuals.has_value());
     if (a.residuals) {
@@ -160,6 +166,15 @@ INSTANTIATE_TEST_SUITE_P(
                 "m.json: the profile has the combination \"min\"; it must be \"sum\" or \"max\""},
         Spoiled{"half_of_the_residuals", "\"c0_ns\": 1", "\"c0_ns\": 1, \"residuals\": {\"p5\": 0}",
                 "m.json: the profile: \"residuals\" has no field \"p50\"; calibrate again"},
+        Spoiled{"one_way_of_asking", "\"c0_ns\": 1", "\"c0_ns\": 1, \"answer_costs\": {\"box_pass\": {}}",
+                "m.json: the profile: \"answer_costs\" has no field \"hardware_query\"; calibrate again"},
+        Spoiled{
+            "negative_answer", "\"c0_ns\": 1",
+            "\"c0_ns\": 1, \"answer_costs\": {\"hardware_query\": {\"frame_ns\": 1, \"query_ns\": 1, "
+            "\"box_ns\": -1, \"pixel_ns\": 0, \"draw_ns\": 0}, \"box_pass\": {\"frame_ns\": 1, "
+            "\"query_ns\": 1, \"box_ns\": 1, \"pixel_ns\": 0, \"draw_ns\": 0}}",
+            "m.json: \"box_ns\" of \"hardware_query\" is negative; it must be finite and not negative, so "
+            "calibrate again"},
         Spoiled{"standard_error", "\"c0_ns\": 1", "\"c0_ns\": 1, \"standard_errors\": {\"c1_ns\": -1}",
                 "m.json: the standard error of \"c1_ns\" is negative; it must be finite and not negative, so "
                 "calibrate again"},

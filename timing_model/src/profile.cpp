@@ -133,6 +133,14 @@ Status validate(const TimingProfile& profile) {
                 return status;
         }
     }
+    for (const WayField& way : kWayFields) {
+        for (const AnswerField& field : kAnswerFields) {
+            if (!profile.answer_costs) break;
+            const std::string name = std::string("\"") + field.name + "\" of \"" + way.name + "\"";
+            const double value = ((*profile.answer_costs).*way.value).*field.value;
+            if (Status status = check_constant(name, value); !status) return status;
+        }
+    }
     if (profile.hold_out_error) {
         if (Status status = check_constant("\"hold_out_error\"", *profile.hold_out_error); !status)
             return status;

@@ -29,6 +29,29 @@ inline constexpr std::array<ConstantField, kTermCount> kConstantFields{{
     {Term::PassedSamples, "passed_sample_ns", false},
 }};
 
+struct WayField {
+    const char* name;
+    AnswerCosts QueryCosts::*value;
+};
+
+inline constexpr std::array<WayField, 2> kWayFields{{
+    {"hardware_query", &QueryCosts::hardware},
+    {"box_pass", &QueryCosts::box_pass},
+}};
+
+struct AnswerField {
+    const char* name;
+    double AnswerCosts::*value;
+};
+
+inline constexpr std::array<AnswerField, 5> kAnswerFields{{
+    {"frame_ns", &AnswerCosts::frame_ns},
+    {"query_ns", &AnswerCosts::query_ns},
+    {"box_ns", &AnswerCosts::box_ns},
+    {"pixel_ns", &AnswerCosts::pixel_ns},
+    {"draw_ns", &AnswerCosts::draw_ns},
+}};
+
 struct PercentileField {
     const char* name;
     double ResidualPercentiles::*value;

@@ -141,6 +141,23 @@ void read_constants(FieldReader& reader, TimingProfile& profile) {
     }
 }
 
+void read_answer_costs(FieldReader& reader, TimingProfile& profile) {
+    const Json* costs = reader.object("answer_costs", false);
+    if (costs == nullptr) return;
+    FieldReader ways(*costs, reader.place() + ": \"answer_costs\"");
+    profile.answer_costs.emplace();
+    for (const WayField& field : kWayFields) {
+        const Json* way = ways.object(field.name, true);
+        if (way == nullptr) continue;
+        FieldReader part(*way, ways.place() + ": \"" + field.name + "\"");
+        for (const AnswerField& answer : kAnswerFields)
+            ((*profile.answer_costs).*field.value).*answer.value =
+                part.number(answer.name, true).value_or(0.0);
+        ways.adopt(part);
+    }
+    reader.adopt(ways);
+}
+
 void read_quality(FieldReader& reader, TimingProfile& profile) {
     profile.hold_out_error = reader.number("hold_out_error", false);
     profile.r_squared = reader.number("r_squared", false);
@@ -173,6 +190,7 @@ Result<TimingProfile> parse_profile(std::string_view text, const std::string& so
     read_schema(reader);
     read_strings(reader, profile);
     read_constants(reader, profile);
+    read_answer_costs(reader, profile);
     read_quality(reader, profile);
     if (reader.error()) return *reader.error();
     if (const Status status = validate(profile); !status)
@@ -194,6 +212,14 @@ std::string profile_text(const TimingProfile& profile) {
         errors[field.name] = or_null(profile.standard_errors_ns[index_of(field.term)]);
     }
     json["standard_errors"] = std::move(errors);
+    json["answer_costs"] = nullptr;
+    if (profile.answer_costs) {
+        OrderedJson ways = OrderedJson::object();
+        for (const WayField& way : kWayFields)
+            for (const AnswerField& answer : kAnswerFields)
+                ways[way.name][answer.name] = ((*profile.answer_costs).*way.value).*answer.value;
+        json["answer_costs"] = std::move(ways);
+    }
     json["residuals"] = nullptr;
     if (profile.residuals) {
         OrderedJson residuals = OrderedJson::object();

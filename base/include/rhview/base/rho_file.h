@@ -51,9 +51,10 @@ class RhoFile {
     [[nodiscard]] const std::shared_ptr<const FileBytes>& owner() const { return bytes_; }
     [[nodiscard]] bool has(SectionTag tag) const { return find(tag) != nullptr; }
 
-    /// The bytes of a section that is whole. Errors: it is absent, it is of a version above `version`, its
-    /// checksum is wrong. Cost: one pass over it, on all of oneTBB's threads.
-    [[nodiscard]] Result<MappableArray<std::byte>> section(SectionTag tag, std::uint32_t version) const;
+    /// The bytes of a section that is whole. Errors: it is absent, it is of a version above `version` or
+    /// below `oldest`, its checksum is wrong. Cost: one pass over it, on all of oneTBB's threads.
+    [[nodiscard]] Result<MappableArray<std::byte>> section(SectionTag tag, std::uint32_t version,
+                                                           std::uint32_t oldest = 1) const;
 
     /// The section as records of `T`. `T` has no pointers and no padding. Another error: its size is no
     /// multiple of a record's.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// Method `none`: the whole scene, one draw call per batch and per dynamic object. What the picture must
+/// Method `none`: the whole scene, one draw call per batch and per object. What the picture must
 /// equal.
 #pragma once
 

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "rhview/frustum/box_batch.h"
 #include "rhview/pipeline/frame_planner.h"
 
 namespace rhview {
@@ -27,6 +28,8 @@ class FrustumObjects final : public FramePlanner {
 
   private:
     std::vector<StaticObject> objects_;
+    BoxArrays boxes_;
+    std::vector<std::uint64_t> visible_;
 };
 
 }  // namespace rhview

@@ -8,6 +8,9 @@
 /// units. `Outside` and `Inside` are proofs, also far from the origin: the slack covers the rounding of this
 /// test and of a renderer that subtracts the eye and applies the camera-relative clip matrix in `float`, as
 /// `gl` does. `Intersecting` proves nothing.
+///
+/// Every box test of this module, one box or many, does the same operations in the same order: a box gets the
+/// same answer from each of them, on every machine.
 #pragma once
 
 #include <array>
@@ -34,23 +37,37 @@ struct FrustumPlane {
     float slack = 0.0f;
 };
 
+/// A plane as box tests use it: scaled so that the renderer, and the test, evaluate it at a vertex v with an
+/// error of at most kBoxSlack times the greatest |coordinate| of v - box_eye, and what the two distances
+/// hold.
+struct BoxPlane {
+    glm::vec3 normal{0.0f};
+    float outside_distance = 1.0f;  ///< the plane's distance, pushed outwards: below zero proves outside
+    float inside_distance = 1.0f;   ///< pushed inwards
+};
+inline constexpr float kBoxSlack = 3 * 0x1p-20f;
+
 struct Frustum {
     enum Plane { Left, Right, Near, Far, Bottom, Top };
 
     std::array<FrustumPlane, 6> planes;
+    std::array<BoxPlane, 6> box_planes;
     PlaneMask mask = 0;   ///< the planes that exist: a far plane at infinity does not
     glm::dvec3 eye{0.0};  ///< relative to the scene's origin
+    glm::vec3 box_eye{
+        0.0f};  ///< what box tests subtract: `eye` but for its last bits, which their planes hold
 };
 
 /// The frustum of a view that `validate` accepts; `scene_origin` is the world position of the boxes' zero.
+/// A plane that is not made of numbers, or of none but zeros, does not exist: nothing is outside of it.
 /// Cost: about 200 flops in double. Source: Gribb & Hartmann 2001, on the camera-relative clip matrix.
 Frustum make_frustum(const View& view, const glm::dvec3& scene_origin = glm::dvec3(0.0));
 
 /// Classifies `box` against the planes set in `mask`.
 /// On return `mask` keeps only the planes that the box may cross, so a caller that descends a hierarchy
-/// passes it on; after `Outside` it means nothing. A box with NaN and the
-/// default (infinite) empty box are `Intersecting`; other boxes with min > max get any answer.
-/// Cost: three dot products per plane at most; no allocation. Thread-safe. Source: Assarsson & Möller 2000,
+/// passes it on; after `Outside` it means nothing. A box with NaN or without end, the default empty box among
+/// them, is `Intersecting`. A box with min > max on some axis holds no point: any answer is true of it.
+/// Cost: two dot products per plane at most; no allocation. Thread-safe. Source: Assarsson & Möller 2000,
 /// section 3.
 Containment classify(const Frustum& frustum, const Aabb& box, PlaneMask& mask);
 

@@ -17,6 +17,8 @@ struct DeviceInfo {
     std::string version;
     bool software = false;      ///< drawn by the CPU
     bool clip_control = false;  ///< `ClipDepth::ZeroToOne` and `ReversedZeroToOne` can be drawn
+    bool box_pass = false;      ///< `QueryWay::BoxPass` can be drawn
+    bool tells_loss = false;    ///< `check_device` sees a reset of the device
 };
 
 struct ContextOptions {
@@ -41,10 +43,17 @@ class Context {
     std::unique_ptr<State> state_;
 };
 
+/// An error if the device was reset since the context was made: nothing that it is told is drawn any more,
+/// and queries get no answers (they count as visible). Cost: one API call.
+Status check_device();
+/// The sentence of an answer of glGetGraphicsResetStatus; empty if there was no reset.
+std::string describe_reset(unsigned status);
+
 /// Waits until everything submitted has been drawn.
 void finish();
 
-/// Clears the error flags; the first of them as text, empty if there was none.
+/// Clears the error flags; the first of them as text, empty if there was none. After a reset of the device it
+/// is "context lost".
 std::string take_error();
 
 }  // namespace rhview::gl

@@ -29,7 +29,7 @@ struct DesignOptions {
 };
 
 /// The frames; `static_indices` is the order that the scene was uploaded with, empty for its own. Same input,
-/// same design. A scene without static triangles gives frames of its dynamic objects. Cost: two passes over
+/// same design. A scene without static triangles gives frames of its objects. Cost: two passes over
 /// the indices.
 std::vector<ExperimentFrame> design_experiment(const Scene& scene,
                                                std::span<const std::uint32_t> static_indices,

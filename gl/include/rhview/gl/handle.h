@@ -41,4 +41,26 @@ using Framebuffer = Handle<HandleKind::Framebuffer>;
 using Renderbuffer = Handle<HandleKind::Renderbuffer>;
 using Query = Handle<HandleKind::Query>;
 
+void delete_fence(void* sync);
+
+/// A GLsync.
+class Fence {
+  public:
+    Fence() = default;
+    explicit Fence(void* sync) : sync_(sync) {}
+    Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
+    Fence& operator=(Fence&& other) noexcept {
+        std::swap(sync_, other.sync_);
+        return *this;
+    }
+    ~Fence() {
+        if (sync_ != nullptr) delete_fence(sync_);
+    }
+
+    [[nodiscard]] void* sync() const { return sync_; }
+
+  private:
+    void* sync_ = nullptr;
+};
+
 }  // namespace rhview::gl

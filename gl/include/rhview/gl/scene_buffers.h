@@ -43,6 +43,7 @@ class SceneBuffers {
 
     [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
     [[nodiscard]] std::span<const DrawState> batches() const { return batches_; }
+    /// By `ObjectId`, as `Scene` numbers them.
     [[nodiscard]] std::span<const ObjectInstance> objects() const { return objects_; }
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 

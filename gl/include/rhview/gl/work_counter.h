@@ -6,6 +6,9 @@
 /// passed the depth test.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "rhview/gl/executor.h"
 #include "rhview/gl/handle.h"
 #include "rhview/timing_model/work.h"
@@ -25,12 +28,24 @@ class WorkCounter {
     [[nodiscard]] bool is_available() const { return available_; }
     void begin();
     void end();
+    /// Between them, within a frame and once, nothing is counted and other occlusion queries may be active:
+    /// the executor pauses while it draws the boxes of queries (`DrawOptions::counter`).
+    void pause();
+    void resume();
     /// Sets primitives, fragments and passed samples of the last counted frame; waits for it.
     void read(Work& work);
 
   private:
+    struct Part {
+        Query primitives, fragments, samples;
+    };
+
+    void begin_part();
+    void end_part();
+
     bool available_ = false;
-    Query primitives_, fragments_, samples_;
+    std::array<Part, 2> parts_;  ///< before the pause and after it
+    std::size_t used_ = 0;
 };
 
 }  // namespace rhview::gl

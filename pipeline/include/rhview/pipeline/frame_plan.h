@@ -9,20 +9,67 @@
 #include <optional>
 #include <vector>
 
+#include "rhview/base/aabb.h"
 #include "rhview/base/ids.h"
+#include "rhview/occlusion_queries/query.h"
 #include "rhview/rhoctree/rhoctree.h"
 
 namespace rhview {
 
+/// Is anything seen of `query_boxes` [first_box, first_box + box_count), against the depth of what was drawn
+/// at once?
+struct PlannedQuery {
+    std::uint64_t ticket = 0;  ///< comes back with the answer
+    std::uint32_t first_box = 0;
+    std::uint32_t box_count = 0;
+    QueryWay way = QueryWay::HardwareQuery;
+    bool counts_samples = false;  ///< hardware queries only
+
+    friend bool operator==(const PlannedQuery&, const PlannedQuery&) = default;
+};
+
+/// Drawn if its query sees something, or if the device does not know.
+struct ConditionalRange {
+    DrawRange range;
+    std::uint32_t query = 0;  ///< into `FramePlan::queries`
+
+    friend bool operator==(const ConditionalRange&, const ConditionalRange&) = default;
+};
+
+struct ConditionalObject {
+    ObjectId object{};
+    std::uint32_t query = 0;
+
+    friend bool operator==(const ConditionalObject&, const ConditionalObject&) = default;
+};
+
+/// What occlusion culling did with the frame, by its model.
+struct OcclusionSummary {
+    std::uint64_t candidates = 0;  ///< nodes and objects in the frustum that were decided about
+    double query_ns = 0.0;         ///< what asking costs
+    double exploration_ns = 0.0;   ///< part of it, spent to learn
+    double saved_ns = 0.0;         ///< expected, against drawing all candidates, less `query_ns`
+};
+
+/// Draw `opaque` and `objects`, ask `queries` against that depth, draw `conditional` and
+/// `conditional_objects`; send the answers to the planner (`FramePlanner::absorb`), whenever they come.
 struct FramePlan {
     /// Static triangles: one draw call each, by batch, so that state is set once per batch.
     std::vector<DrawRange> opaque;
-    /// Dynamic objects to draw whole, by id.
+    /// Dynamic objects and static instances to draw whole, by id.
     std::vector<ObjectId> objects;
+    /// Boxes of the queries, in the scene's coordinates. Their faces may lie on what they hold, to the last
+    /// bit: who draws them widens them by what its rounding may move.
+    std::vector<Aabb> query_boxes;
+    std::vector<PlannedQuery> queries;
+    std::vector<ConditionalRange> conditional;  ///< by batch, then by place
+    std::vector<ConditionalObject> conditional_objects;
     /// What the planner chose, by its own ids (`FramePlanner::bounds_of`): for pictures and statistics.
     std::vector<std::uint32_t> chosen;
     std::uint64_t nodes_visited = 0;
-    /// What the draws of `opaque` cost by the planner's model, without the objects; absent where it has none.
+    std::optional<OcclusionSummary> occlusion;  ///< absent: the planner knows no queries
+    /// What the draws of `opaque` and `conditional` and the queries cost by the planner's model, without the
+    /// objects; absent where it has none.
     std::optional<double> predicted_ns;
 
     /// Empties the plan and keeps its memory.

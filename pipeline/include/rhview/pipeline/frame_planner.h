@@ -5,6 +5,8 @@
 /// What every culling method looks like to a render loop.
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -17,9 +19,10 @@ namespace rhview {
 
 /// What a frame is planned from; the caller owns it.
 struct FrameInput {
-    View culling_view;                     ///< `validate` accepts it
-    glm::dvec3 scene_origin{0.0};          ///< world position of the zero of every box and vertex
-    std::span<const Aabb> object_boxes{};  ///< of the dynamic objects, by `ObjectId`; contain what is drawn
+    View culling_view;                      ///< `validate` accepts it
+    glm::dvec3 scene_origin{0.0};           ///< world position of the zero of every box and vertex
+    std::span<const Aabb> object_boxes{};   ///< moving or instances, by `ObjectId`; contain what is drawn
+    glm::ivec2 viewport_pixels{1280, 720};  ///< what occlusion culling judges the size of boxes by
 };
 
 /// One per view: it may remember earlier frames. Equal inputs in equal order give equal plans; after the
@@ -27,13 +30,17 @@ struct FrameInput {
 class FramePlanner {
   public:
     virtual ~FramePlanner() = default;
+    /// Answers to the queries of earlier plans, in any order, before the next `plan`. Planners that ask
+    /// nothing ignore them.
+    virtual void absorb(std::span<const QueryAnswer> answers) { static_cast<void>(answers); }
     /// Replaces `plan`. Nothing that may be visible is left out.
     virtual void plan(const FrameInput& input, FramePlan& plan) = 0;
     /// The box of an entry of `FramePlan::chosen`.
     [[nodiscard]] virtual Aabb bounds_of(std::uint32_t chosen) const = 0;
 };
 
-/// Appends the objects whose box is not outside. Cost: one box test each.
+/// Appends the objects whose box is not outside, by id. Cost: 24 bytes read and about 0.5 ns per box
+/// (AVX-512), 1 ns per object appended.
 void append_visible_objects(const Frustum& frustum, std::span<const Aabb> boxes,
                             std::vector<ObjectId>& objects);
 

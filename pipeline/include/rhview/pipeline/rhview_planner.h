@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// The planner `rhview`: frustum and back-face culling, and the cheapest draw list of what is left.
+/// The planner `rhview`: frustum, back-face and occlusion culling, and the cheapest draw list of what is
+/// left.
 #pragma once
 
+#include <optional>
+
 #include "rhview/pipeline/frame_planner.h"
+#include "rhview/pipeline/node_visibility.h"
 #include "rhview/rhoctree/draw_list.h"
 #include "rhview/rhoctree/rhoctree.h"
 
@@ -14,10 +18,13 @@ namespace rhview {
 class RhviewPlanner final : public FramePlanner {
   public:
     /// `octree` outlives the planner. `costs` may be others than those it was built for: the list is the
-    /// cheapest by these, over the leaves and replicas that are there.
-    RhviewPlanner(const RhOctree& octree, const DrawCosts& costs) : octree_(octree), costs_(costs) {}
-    RhviewPlanner(RhOctree&&, const DrawCosts&) = delete;
+    /// cheapest by these, over the leaves and replicas that are there. Without `occlusion` nothing is asked.
+    RhviewPlanner(const RhOctree& octree, const DrawCosts& costs,
+                  const std::optional<OcclusionOptions>& occlusion = std::nullopt);
+    RhviewPlanner(RhOctree&&, const DrawCosts&,
+                  const std::optional<OcclusionOptions>& = std::nullopt) = delete;
 
+    void absorb(std::span<const QueryAnswer> answers) override;
     void plan(const FrameInput& input, FramePlan& plan) override;
     [[nodiscard]] Aabb bounds_of(std::uint32_t chosen) const override;
 
@@ -30,6 +37,8 @@ class RhviewPlanner final : public FramePlanner {
   private:
     const RhOctree& octree_;
     DrawCosts costs_;
+    std::optional<NodeVisibility> visibility_;
+    double last_predicted_ns_ = 0.0;
     DrawListSolver solver_;
     DrawList list_;
 };

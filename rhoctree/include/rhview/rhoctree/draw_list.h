@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rhview/frustum/frustum.h"
@@ -17,11 +18,31 @@
 
 namespace rhview {
 
+/// A node, or a piece of a leaf, that may be shown in another way than by the draw list, as by draws that
+/// hang on a query: each of its batches then takes one range, for `draw_ns + index_ns·(its indices)`.
+struct NodeAlternative {
+    static constexpr std::uint32_t kWhole = 0xffffffffu;
+
+    NodeId node{};
+    std::uint32_t piece = kWhole;  ///< into `RhOctree::pieces`: of this leaf
+    double index_ns = 0.0;
+    double draw_ns = 0.0;
+};
+
+/// A batch's range of a node or piece that the draw list leaves to the node's alternative.
+struct AlternativeRange {
+    DrawRange range;
+    std::uint32_t alternative = 0;  ///< into those given
+
+    friend bool operator==(const AlternativeRange&, const AlternativeRange&) = default;
+};
+
 /// What `DrawListSolver` found. Reuse it: clearing keeps the memory.
 struct DrawList {
-    std::vector<DrawRange> ranges;  ///< by batch; within a batch along the base order
-    std::vector<NodeId> nodes;      ///< whose pieces were looked at, as one where the whole node is inside
-    double predicted_ns = 0.0;      ///< what `ranges` cost by the model
+    std::vector<DrawRange> ranges;               ///< by batch; within a batch along the base order
+    std::vector<AlternativeRange> alternatives;  ///< those taken, in the order of `ranges`
+    std::vector<NodeId> nodes;  ///< whose pieces were looked at, as one where the whole node is inside
+    double predicted_ns = 0.0;  ///< what `ranges` and `alternatives` cost by the model
     std::uint64_t nodes_visited = 0;
     std::uint64_t pieces_visited = 0;
     std::uint32_t replicas_drawn = 0;
@@ -37,8 +58,13 @@ struct DrawList {
 /// pays is looked at from its ends only. Source: docs/draw-list.md.
 class DrawListSolver {
   public:
+    ///
+    /// `alternatives`: in the order of their nodes and pieces, none within another's; not outside the
+    /// frustum. Such a node is not entered: per batch, it is one range of the draw list or one of its
+    /// alternative, whichever makes the whole cheaper (a gap that is bridged anyway may cover it). What a
+    /// piece of a node above holds is shown with that.
     void solve(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
-               const DrawCosts& costs, DrawList& list);
+               const DrawCosts& costs, DrawList& list, std::span<const NodeAlternative> alternatives = {});
 
     /// For each replica that the view meets, adds to `saving_ns` what drawing it would save against the base
     /// order at its place, less the planning that it takes. No replica is drawn, `list` is the base order's.
@@ -52,10 +78,13 @@ class DrawListSolver {
     };
 
     void walk(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
-              const DrawCosts& costs, DrawList& list, std::span<double> saving_ns);
+              const DrawCosts& costs, DrawList& list, std::span<const NodeAlternative> alternatives,
+              std::span<double> saving_ns);
 
-    std::vector<RangeRoute> routes_;  ///< by batch
+    std::vector<RangeRoute> routes_;         ///< by batch
+    std::vector<std::uint32_t> told_until_;  ///< by batch: where the last piece of an inner node ends
     RangeLog log_;
+    std::vector<AlternativeRange> offered_;   ///< of the alternatives met
     std::vector<OpenReplica> open_replicas_;  ///< a stack: replicas are nested or apart
 
     friend class DrawListWalk;

@@ -112,6 +112,8 @@ class RhOctree {
     [[nodiscard]] std::span<const DrawRange> ranges(NodeId id) const {
         return ranges_.span().subspan(node(id).first_range, node(id).range_count);
     }
+    /// Those of all nodes: `OctreeNode::first_range` counts in them.
+    [[nodiscard]] std::span<const DrawRange> all_ranges() const { return ranges_.span(); }
     /// The index buffer to draw from. In base order first: batch after batch, leaves in depth-first order;
     /// then the replicas. Index values are the batch's own, into its `positions`. A triangle's three indices
     /// keep their order, so that depths agree to the last bit with the source's.

@@ -32,6 +32,8 @@ struct Material {
 /// Unit normal, three signed 10-bit components (x in the low bits): OpenGL's GL_INT_2_10_10_10_REV.
 enum class PackedNormal : std::uint32_t {};
 PackedNormal pack_normal(const glm::vec3& unit_normal);
+/// About unit length.
+glm::vec3 unpack_normal(PackedNormal normal);
 
 /// Linear RGBA, 8 bits each, red in the low byte.
 enum class PackedColour : std::uint32_t {};
@@ -62,7 +64,7 @@ struct SceneBatch {
     MappableArray<SceneObject> objects;
 };
 
-/// A mesh that several objects share, in its own space.
+/// A mesh that several objects or static instances share, in its own space.
 struct SceneMesh {
     MaterialId material{};
     std::uint32_t pool = 0;
@@ -76,6 +78,32 @@ struct DynamicObject {
     glm::dmat4 scene_from_mesh{1.0};  ///< affine, relative to `Scene::origin`
 };
 
+/// A mesh where the scene's author placed it, kept apart from the batches: stored once, culled by its box and
+/// drawn whole.
+struct StaticInstance {
+    MeshId mesh{};
+    glm::dmat4 scene_from_mesh{1.0};  ///< affine and invertible, relative to `Scene::origin`
+    Aabb bounds;                      ///< of its vertices as placed, rounded outwards
+};
+
+/// What became of the meshes that a scene's author placed more than once, and what either way takes. Bytes
+/// are those of vertices and indices; times those of `InstanceCosts`' model, a frame.
+struct InstancingReport {
+    std::uint64_t flattened_meshes = 0;
+    std::uint64_t flattened_placements = 0;
+    std::uint64_t flattened_bytes = 0;  ///< what their placements take in the batches
+    std::uint64_t kept_meshes = 0;
+    std::uint64_t kept_placements = 0;
+    std::uint64_t kept_bytes = 0;           ///< stored once each
+    std::uint64_t all_flattened_bytes = 0;  ///< had every placement been flattened
+    std::uint64_t budget_bytes = 0;         ///< what `flattened_bytes` was allowed to be
+    double all_kept_ns = 0.0;
+    double all_flattened_ns = 0.0;
+    double chosen_ns = 0.0;
+
+    friend bool operator==(const InstancingReport&, const InstancingReport&) = default;
+};
+
 struct Scene {
     std::string name;
     glm::dvec3 origin{0.0};  ///< world position of the scene's zero
@@ -84,15 +112,25 @@ struct Scene {
     std::vector<SceneBatch> batches;
     std::vector<SceneMesh> meshes;
     std::vector<DynamicObject> dynamic_objects;
+    std::vector<StaticInstance> static_instances;
+    InstancingReport instancing;
     std::uint64_t dropped_triangles = 0;  ///< not finite, left out by the import
     std::vector<std::string> warnings;    ///< one sentence each
 
-    [[nodiscard]] std::uint64_t static_triangles() const;
-    [[nodiscard]] std::uint64_t dynamic_triangles() const;  ///< as placed
-    [[nodiscard]] std::uint64_t static_objects() const;
-    [[nodiscard]] std::uint64_t vertex_count() const;  ///< as stored
+    [[nodiscard]] std::uint64_t batch_triangles() const;
+    [[nodiscard]] std::uint64_t instance_triangles() const;  ///< of the static instances, as placed
+    [[nodiscard]] std::uint64_t static_triangles() const;    ///< both
+    [[nodiscard]] std::uint64_t dynamic_triangles() const;   ///< as placed
+    [[nodiscard]] std::uint64_t static_objects() const;      ///< in batches and as instances
+    [[nodiscard]] std::uint64_t vertex_count() const;        ///< as stored
     [[nodiscard]] std::uint64_t vertex_bytes() const;
     [[nodiscard]] std::uint64_t index_bytes() const;  ///< of batches and meshes, as stored
+    /// What is drawn object by object has an `ObjectId`: the dynamic objects first, then the static
+    /// instances.
+    [[nodiscard]] std::size_t object_count() const;
+    [[nodiscard]] MeshId object_mesh(ObjectId object) const;
+    [[nodiscard]] const glm::dmat4& object_placement(ObjectId object) const;  ///< `scene_from_mesh`
+    [[nodiscard]] std::vector<Aabb> object_boxes() const;
     /// Box of everything, static and dynamic, relative to `origin`.
     [[nodiscard]] Aabb bounds() const;
     /// The static batches as spans into this scene; batch i is `BatchId{i}`.

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// Collects placed triangles into static batches, one per material and vertex format.
+/// Collects placed triangles into static batches, one per material and vertex format, and meshes with their
+/// places.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rhview/base/result.h"
@@ -40,9 +42,14 @@ class SceneBuilder {
     void add_static(MaterialId material, const MeshPiece& piece,
                     const glm::dmat4& world_from_piece = glm::dmat4(1.0));
 
-    /// Adds a mesh for dynamic objects, in its own space; nothing if no finite triangle is left.
+    /// Adds a mesh for dynamic objects and instances, in its own space; nothing if no finite triangle is
+    /// left.
     std::optional<MeshId> add_mesh(MaterialId material, const MeshPiece& piece);
     void add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh);
+    /// Places a mesh that does not move, without copying it. False, and nothing is added, where it can't be
+    /// drawn through that map (flat, strongly sheared, not affine, out of float's range): `add_static` it
+    /// then.
+    bool add_instance(MeshId mesh, const glm::dmat4& world_from_mesh);
 
     void add_warning(std::string sentence);
 
@@ -60,8 +67,9 @@ class SceneBuilder {
                 std::vector<std::uint32_t>& indices, Aabb& bounds);
 
     Scene scene_;
-    std::vector<std::uint32_t> pool_of_format_;  ///< [normals + 2 * colours]
-    std::vector<std::uint32_t> batch_of_;        ///< [material * 4 + format]
+    std::vector<std::pair<std::size_t, std::size_t>> mesh_vertices_;  ///< first and end in the mesh's pool
+    std::vector<std::uint32_t> pool_of_format_;                       ///< [normals + 2 * colours]
+    std::vector<std::uint32_t> batch_of_;                             ///< [material * 4 + format]
     std::vector<std::uint32_t> new_index_;  ///< scratch, all unset between calls: piece vertex -> pool vertex
     std::array<std::size_t, 4> reserved_vertices_{};  ///< by format
     bool too_large_ = false;

@@ -8,8 +8,9 @@
 /// `c1_ns`, `c3_ns`. Optional, absent or null where not measured: `query_ns`, `sub_draw_ns`, `fragment_ns`,
 /// `material_ns`, `primitive_ns`, `passed_sample_ns`, `combination` ("sum" or "max"), `timer` {`name`,
 /// `why`}, `date`, `note`, `samples`, `hold_out_error`, `r_squared`, `standard_errors` {the constants'
-/// names}, `residuals` {`p5`, `p50`, `p95`, `absolute_p50`, `absolute_p95`}. Unknown fields are ignored, so
-/// that later versions may add some. Writing and reading keeps every bit of a number.
+/// names}, `answer_costs` {`hardware_query`, `box_pass`: each {`frame_ns`, `query_ns`, `box_ns`, `pixel_ns`,
+/// `draw_ns`}}, `residuals` {`p5`, `p50`, `p95`, `absolute_p50`, `absolute_p95`}. Unknown fields are ignored,
+/// so that later versions may add some. Writing and reading keeps every bit of a number.
 #pragma once
 
 #include <array>
@@ -21,6 +22,7 @@
 
 #include "rhview/base/result.h"
 #include "rhview/timing_model/fit.h"
+#include "rhview/timing_model/query_costs.h"
 
 namespace rhview {
 
@@ -36,6 +38,7 @@ struct TimingProfile {
     double c3_ns = 0.0;  ///< per draw call
     std::optional<double> query_ns, sub_draw_ns, fragment_ns, material_ns, primitive_ns, passed_sample_ns;
     Combination combination = Combination::Sum;
+    std::optional<QueryCosts> answer_costs;  ///< of occlusion queries, by what they ask about
 
     std::array<std::optional<double>, kTermCount> standard_errors_ns;  ///< by `Term`
     std::optional<ResidualPercentiles> residuals;

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "occlusion_tests.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rhview/base/assert.h"
+#include "rhview/gl/query_boxes.h"
+
+namespace rhview::gl {
+namespace {
+
+/// Step of the bound framebuffer's depth; 0 if it is a floating-point one, or there is none.
+double depth_step() {
+    GLint framebuffer = 0, type = GL_NONE, bits = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+    const GLenum attachment = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
+    const auto read = [&](GLenum name, GLint& value) {
+        glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, name, &value);
+    };
+    read(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, type);
+    if (type == GL_NONE) return 0.0;
+    read(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, type);
+    if (type == GL_FLOAT) return 0.0;
+    read(GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE, bits);
+    return std::exp2(-bits);
+}
+
+RasterPrecision raster_precision(int subpixel_bits) {
+    GLint viewport[4] = {};
+    glGetIntegerv(GL_VIEWPORT, viewport);
+    return {std::max(viewport[2], 1), std::max(viewport[3], 1), subpixel_bits, depth_step()};
+}
+
+double largest_growth(const FramePlan& plan, const SceneBuffers& scene) {
+    double growth = 1.0;
+    for (const ConditionalObject& object : plan.conditional_objects)
+        growth = std::max(growth, rounding_growth(scene.objects()[index_of(object.object)].scene_from_mesh));
+    return growth;
+}
+
+}  // namespace
+
+OcclusionTests::OcclusionTests(BoxDrawer drawer, QueryPool pool)
+    : drawer_(std::move(drawer)), pool_(std::move(pool)) {}
+
+Result<OcclusionTests> OcclusionTests::create(std::uint32_t lost_after_frames) {
+    const bool marks = BoxPass::is_available();
+    Result<BoxDrawer> drawer = BoxDrawer::create(marks);
+    if (!drawer) return drawer.error();
+    OcclusionTests tests(std::move(drawer).value(), QueryPool(lost_after_frames));
+    if (marks) {
+        Result<BoxPass> box_pass = BoxPass::create(lost_after_frames);
+        if (!box_pass) return box_pass.error();
+        tests.box_pass_ = std::move(box_pass).value();
+    }
+    GLint bits = 0;
+    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+    tests.subpixel_bits_ = std::max(bits, 1);
+    return tests;
+}
+
+void OcclusionTests::begin_frame() {
+    pool_.begin_frame();
+    if (box_pass_) box_pass_->begin_frame();
+}
+
+void OcclusionTests::ask(const FramePlan& plan, const SceneBuffers& scene, const View& view,
+                         FrameCounters& counters) {
+    counters.queries += plan.queries.size();
+    const BoxWidener widener(view, scene.origin(), raster_precision(subpixel_bits_),
+                             largest_growth(plan, scene));
+    place_boxes(plan, widener);
+    if (!boxes_.empty()) drawer_.upload(boxes_);
+    counters.query_boxes += boxes_.size();
+    if (first_marking_ != 0) ask_hardware(plan, widener, counters);
+    collect_draws(plan, scene);
+    if (!slots_.empty()) ask_box_pass(widener, counters);
+}
+
+void OcclusionTests::place_boxes(const FramePlan& plan, const BoxWidener& widener) {
+    fates_.assign(plan.queries.size(), {});
+    boxes_.clear();
+    slots_.clear();
+    for (const QueryWay way : {QueryWay::HardwareQuery, QueryWay::BoxPass}) {
+        if (way == QueryWay::BoxPass) first_marking_ = static_cast<std::uint32_t>(boxes_.size());
+        for (std::size_t i = 0; i < plan.queries.size(); ++i)
+            if (plan.queries[i].way == way) place_query(plan.queries[i], plan, widener, fates_[i]);
+    }
+}
+
+void OcclusionTests::place_query(const PlannedQuery& query, const FramePlan& plan, const BoxWidener& widener,
+                                 Fate& fate) {
+    RHVIEW_ASSERT(query.box_count > 0 && query.first_box + query.box_count <= plan.query_boxes.size());
+    const bool marks = query.way == QueryWay::BoxPass;
+    RHVIEW_ASSERT(!marks || (has_box_pass() && !query.counts_samples));
+    if (query.box_count == 0 || (marks && !has_box_pass())) {
+        untested_.push_back({query.ticket, true, 0});
+        return;
+    }
+    fate.first_box = static_cast<std::uint32_t>(boxes_.size());
+    if (marks) {
+        fate.slot = static_cast<std::uint32_t>(slots_.size());
+        slots_.push_back(query.ticket);
+    }
+    for (std::uint32_t i = 0; i < query.box_count; ++i)
+        boxes_.push_back(widener.widen(plan.query_boxes[query.first_box + i], marks ? fate.slot : 0));
+}
+
+void OcclusionTests::ask_hardware(const FramePlan& plan, const BoxWidener& widener, FrameCounters& counters) {
+    drawer_.begin(widener, BoxDrawer::Effect::None);
+    for (std::size_t i = 0; i < plan.queries.size(); ++i) {
+        const PlannedQuery& query = plan.queries[i];
+        if (query.way != QueryWay::HardwareQuery || query.box_count == 0) continue;
+        fates_[i].name = pool_.begin(query.ticket, query.counts_samples);
+        BoxDrawer::draw(fates_[i].first_box, query.box_count);
+        pool_.end();
+        ++counters.query_draw_calls;
+    }
+}
+
+void OcclusionTests::collect_draws(const FramePlan& plan, const SceneBuffers& scene) {
+    draws_.clear();
+    for (const ConditionalRange& conditional : plan.conditional)
+        if (is_indirect(conditional.query))
+            draws_.push_back({conditional.range.first_index, conditional.range.index_count,
+                              fates_[conditional.query].slot});
+    for (const ConditionalObject& conditional : plan.conditional_objects)
+        if (is_indirect(conditional.query)) {
+            const ObjectInstance& object = scene.objects()[index_of(conditional.object)];
+            draws_.push_back({object.first_index, object.index_count, fates_[conditional.query].slot});
+        }
+}
+
+void OcclusionTests::ask_box_pass(const BoxWidener& widener, FrameCounters& counters) {
+    box_pass_->clear(slots_.size());
+    drawer_.begin(widener, BoxDrawer::Effect::MarkSlot);
+    BoxDrawer::draw(first_marking_, static_cast<std::uint32_t>(boxes_.size()) - first_marking_);
+    ++counters.query_draw_calls;
+    box_pass_->decide(draws_, slots_);
+}
+
+void OcclusionTests::bind_commands() const {
+    if (box_pass_) box_pass_->bind_commands();
+}
+
+void OcclusionTests::poll(std::vector<QueryAnswer>& answers) {
+    answers.insert(answers.end(), untested_.begin(), untested_.end());
+    untested_.clear();
+    pool_.poll(answers);
+    if (box_pass_) box_pass_->poll(answers);
+}
+
+void OcclusionTests::wait(std::vector<QueryAnswer>& answers) {
+    answers.insert(answers.end(), untested_.begin(), untested_.end());
+    untested_.clear();
+    pool_.wait(answers);
+    if (box_pass_) box_pass_->wait(answers);
+}
+
+AnswerCounters OcclusionTests::counters() const {
+    AnswerCounters sum = pool_.counters();
+    if (!box_pass_) return sum;
+    const AnswerCounters& passed = box_pass_->counters();
+    sum.asked += passed.asked;
+    sum.answered += passed.answered;
+    sum.lost += passed.lost;
+    sum.blocking_reads += passed.blocking_reads;
+    return sum;
+}
+
+}  // namespace rhview::gl
