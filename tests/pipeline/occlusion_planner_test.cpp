@@ -216,6 +216,19 @@ TEST(OcclusionPlanner, equal_frames_and_answers_give_equal_plans) {
     for (int i = 0; i < 60; ++i) EXPECT_EQ(plan_hash(a.frame(0.01 * i)), plan_hash(b.frame(0.01 * i)));
 }
 
+TEST(OcclusionPlanner, two_views_share_an_octree_and_nothing_else) {
+    const Balls balls(218, 3, 60, 200);
+    const RhOctree octree = octree_of(balls);
+    RhviewPlanner one(octree, kCosts, options_of()), other(octree, kCosts, options_of());
+    RhviewPlanner alone(octree, kCosts, options_of());
+    World a(one, 20.0), b(other, -5.0, {.latency = 2}), c(alone, 20.0);
+    for (int i = 0; i < 60; ++i) {
+        const std::uint64_t hash = plan_hash(a.frame(0.01 * i));
+        b.frame(3.0 - 0.02 * i);
+        EXPECT_EQ(hash, plan_hash(c.frame(0.01 * i)));
+    }
+}
+
 TEST(OcclusionPlanner, warm_planner_allocates_nothing) {
     const Balls balls(215, 3, 60, 200);
     const RhOctree octree = octree_of(balls);
