@@ -125,10 +125,12 @@ void NodeVisibility::make_lens(const FrameInput& input, const Frustum& frustum) 
 bool NodeVisibility::is_testable(const Aabb& box) const {
     const glm::vec3 half = 0.5f * (box.max - box.min);
     const glm::vec3 from_eye = 0.5f * (box.max + box.min) - lens_.eye;
-    // The differences above are rounded in units of the positions.
-    const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max)) + glm::abs(lens_.eye);
-    const float margin =
-        kNearMargin * (glm::length(from_eye) + glm::length(half)) + kRounding * (reach.x + reach.y + reach.z);
+    // The differences above are rounded in units of the positions. Sums of absolutes are no less than
+    // lengths.
+    const glm::vec3 reach =
+        kNearMargin * (glm::abs(from_eye) + half) +
+        kRounding * (glm::max(glm::abs(box.min), glm::abs(box.max)) + glm::abs(lens_.eye));
+    const float margin = reach.x + reach.y + reach.z;
     const glm::vec3 beside = glm::abs(from_eye) - half;
     const bool holds_eye = std::max({beside.x, beside.y, beside.z}) <= margin;
     const float nearest = glm::dot(lens_.near_normal, from_eye) -
@@ -180,16 +182,15 @@ NodeVisibility::Parts NodeVisibility::visit(std::uint32_t index, PlaneMask mask,
     ++nodes_visited_;
     if (classify(*frustum_, node.bounds, mask) == Containment::Outside) return {};
     const Belief belief = scheduler_.visit(index, otherwise);
-    const bool testable = is_testable(node.bounds);
     const bool leaf = node.end == index + 1;
-    const bool whole = leaf || (testable && (belief == Belief::Hidden ||
-                                             (belief == Belief::Unknown && render_ns(index) <= grain_ns_)));
+    const bool one = belief == Belief::Hidden || (belief == Belief::Unknown && render_ns(index) <= grain_ns_);
+    const bool testable = (leaf || one) && is_testable(node.bounds);
     // Parts of what was hidden until now are hidden, most of them.
     const bool was_hidden = belief == Belief::Hidden || scheduler_.turned_visible(index);
     const Belief otherwise_parts = was_hidden ? Belief::Hidden : Belief::Unknown;
     if (leaf && is_split_[index] && (!testable || belief == Belief::Visible))
         return visit_pieces(index, mask, otherwise_parts);
-    return whole ? add_node(index, testable, belief) : visit_parts(index, mask, otherwise_parts);
+    return leaf || testable ? add_node(index, testable, belief) : visit_parts(index, mask, otherwise_parts);
 }
 
 NodeVisibility::Parts NodeVisibility::add_piece(std::uint32_t piece, Belief otherwise) {
