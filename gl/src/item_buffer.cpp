@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 
 #include "program.h"
+#include "renderbuffer.h"
 #include "rhview/base/rounding.h"
 #include "state_guard.h"
 
@@ -37,14 +38,6 @@ void main() { pixel = item; }
 
 constexpr std::uint32_t kNothing = 0;  ///< in a pixel; items are counted from 1 there
 
-GLuint make_storage(GLenum format, int width, int height) {
-    GLuint name = 0;
-    glGenRenderbuffers(1, &name);
-    glBindRenderbuffer(GL_RENDERBUFFER, name);
-    glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
-    return name;
-}
-
 }  // namespace
 
 Result<ItemBuffer> ItemBuffer::create(int width, int height) {
@@ -60,8 +53,8 @@ Result<ItemBuffer> ItemBuffer::create(int width, int height) {
     const TargetGuard guard;
     result.width_ = width;
     result.height_ = height;
-    result.items_ = Renderbuffer(make_storage(GL_R32UI, width, height));
-    result.depth_ = Renderbuffer(make_storage(GL_DEPTH_COMPONENT32F, width, height));
+    result.items_ = make_renderbuffer(GL_R32UI, width, height);
+    result.depth_ = make_renderbuffer(GL_DEPTH_COMPONENT32F, width, height);
     GLuint framebuffer = 0;
     glGenFramebuffers(1, &framebuffer);
     result.framebuffer_ = Framebuffer(framebuffer);

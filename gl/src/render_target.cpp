@@ -10,20 +10,18 @@
 #include <cstdint>
 #include <string>
 
+#include "renderbuffer.h"
 #include "state_guard.h"
 
 namespace rhview::gl {
-namespace {
 
-GLuint make_storage(GLenum format, int width, int height) {
+Renderbuffer make_renderbuffer(unsigned format, int width, int height) {
     GLuint name = 0;
     glGenRenderbuffers(1, &name);
     glBindRenderbuffer(GL_RENDERBUFFER, name);
     glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
-    return name;
+    return Renderbuffer(name);
 }
-
-}  // namespace
 
 Result<RenderTarget> RenderTarget::create(int width, int height) {
     GLint limit = 0;
@@ -39,8 +37,8 @@ Result<RenderTarget> RenderTarget::create(int width, int height) {
     RenderTarget target;
     target.width_ = width;
     target.height_ = height;
-    target.colour_ = Renderbuffer(make_storage(GL_RGBA8, width, height));
-    target.depth_ = Renderbuffer(make_storage(GL_DEPTH_COMPONENT32F, width, height));
+    target.colour_ = make_renderbuffer(GL_RGBA8, width, height);
+    target.depth_ = make_renderbuffer(GL_DEPTH_COMPONENT32F, width, height);
     GLuint framebuffer = 0;
     glGenFramebuffers(1, &framebuffer);
     target.framebuffer_ = Framebuffer(framebuffer);

@@ -39,6 +39,9 @@ TEST_F(BadInput, unknown_verbs_options_methods_and_modes) {
     refuse("walk town --method fastest", {"--method fastest", "none, frustum, octree, rhview-seed, rhview"},
            0);
     refuse("walk town --mode guess", {"--mode guess"}, 0);
+    refuse("walk town --mode latent --method octree", {"--mode latent", "rhview"}, 0);
+    refuse("walk town --occlusion never", {"--occlusion never", "auto, hardware, boxes, off"}, 0);
+    refuse("walk town --visible-set --method none", {"--visible-set", "none"}, 0);
     refuse("walk town --submission bulk", {"--submission bulk"}, 0);
 }
 

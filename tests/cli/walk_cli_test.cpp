@@ -33,6 +33,52 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
 
 class Walk : public ProgramTest {};
 
+/// Prices at which asking pays on a small scene.
+const std::string kPrices = " --set c1=5,c3=200,query=4000,box=800";
+
+TEST_F(Walk, hidden_things_are_left_out_by_either_way_and_no_pixel_is_missing) {
+    const std::string city =
+        "city:blocks=6 --frames 20 --warmup 4 --size 200x120 --check --visible-set" + kPrices;
+    const double plain = walk_json(city + " --occlusion off")["summary"]["indices"]["mean"];
+    for (const char* way : {"auto", "hardware", "boxes"}) {
+        const nlohmann::json walk = walk_json(city + " --occlusion " + way);
+        const nlohmann::json& summary = walk["summary"];
+        EXPECT_EQ(walk["occlusion"], way);
+        EXPECT_EQ(summary["missing_pixels"]["total"], 0) << way;
+        EXPECT_EQ(summary["blocking_reads"], 0) << way;
+        EXPECT_EQ(summary["lost_queries"], 0) << way;
+        EXPECT_LT(summary["indices"]["mean"], 0.5 * plain) << way;
+        EXPECT_GT(summary["queries"]["mean"], 1.0) << way;
+        EXPECT_GT(summary["hidden_fraction"]["mean"], 0.3) << way;
+        EXPECT_GT(summary["visible_set_indices"]["mean"], 0.0) << way;
+        const double by_boxes = summary["box_pass_queries"]["mean"];
+        EXPECT_TRUE(std::string(way) != "boxes" || summary["queries"]["mean"] == by_boxes);
+        EXPECT_TRUE(std::string(way) != "hardware" || by_boxes == 0.0);
+        for (const nlohmann::json& frame : walk["per_frame"])
+            EXPECT_LE(frame["occlusion"]["executed_ranges"], frame["occlusion"]["conditional_ranges"]);
+    }
+}
+
+TEST_F(Walk, equal_prices_and_answers_give_equal_plans) {
+    const std::string city = "city:blocks=4 --frames 12 --warmup 2 --size 160x90" + kPrices;
+    EXPECT_EQ(walk_json(city)["summary"]["plan_hash"], walk_json(city)["summary"]["plan_hash"]);
+}
+
+TEST_F(Walk, latent_mode_tells_what_it_misses_and_is_no_failed_check) {
+    const nlohmann::json walk =
+        walk_json("city:blocks=6 --frames 12 --warmup 4 --size 200x120 --check --mode latent" + kPrices);
+    EXPECT_EQ(walk["mode"], "latent");
+    EXPECT_TRUE(walk["summary"]["missing_pixels"]["total"].is_number());
+}
+
+TEST_F(Walk, without_a_price_of_a_query_nothing_is_asked) {
+    const nlohmann::json walk =
+        walk_json("city:blocks=3 --frames 3 --warmup 0 --size 160x90 --set c1=5,c3=200");
+    EXPECT_TRUE(walk["summary"]["hidden_fraction"].is_null());
+    EXPECT_TRUE(walk["summary"]["blocking_reads"].is_null());
+    EXPECT_EQ(walk["summary"]["queries"]["max"], 0);
+}
+
 TEST_F(Walk, json_keeps_the_contract) {
     const nlohmann::json walk = walk_json(kSmallTown + " --method octree --leaf 64");
     EXPECT_EQ(walk["schema"], "rhview.walk/1");

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "rhview/gl/handle.h"
+
+namespace rhview::gl {
+
+/// Storage of an OpenGL internal format; leaves it bound.
+Renderbuffer make_renderbuffer(unsigned format, int width, int height);
+
+}  // namespace rhview::gl
