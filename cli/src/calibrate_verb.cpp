@@ -46,7 +46,7 @@ std::string short_name(Term term) {
         case Term::Fragments:
             return "a fragment shaded";
         case Term::Queries:
-            return "an occlusion query";
+            return "a query of these frames";
         case Term::MaterialChanges:
             return "a material change";
         case Term::Primitives:

@@ -18,7 +18,7 @@ constexpr glm::vec3 kNotDrawn(0.30f, 0.31f, 0.33f);
 constexpr glm::vec3 kBridged(0.70f, 0.10f, 0.85f);
 constexpr glm::vec3 kBoxes(0.10f, 0.25f, 0.75f);
 constexpr glm::vec3 kSeen(0.0f, 0.62f, 0.20f);
-constexpr glm::vec3 kHidden(0.90f, 0.10f, 0.10f);
+constexpr glm::vec3 kHidden = kBoxes;
 constexpr glm::vec3 kFrustum(0.85f, 0.0f, 0.25f);
 
 /// Looks straight down on all of `bounds`, north (-z) up. What is higher than a viewer within the scene is

@@ -82,7 +82,8 @@ void add_walk(CLI::App& app, WalkOptions& options) {
                      "answers are trusted")
         ->capture_default_str();
     walk->add_option("--occlusion", options.occlusion,
-                     "Ask the device what is hidden: auto (either way, where it pays), hardware (queries "
+                     "rhview and rhview-seed: ask the device what is hidden: auto (either way, where it "
+                     "pays), hardware (queries "
                      "only), boxes (box pass only), off")
         ->type_name("W")
         ->capture_default_str();
@@ -92,11 +93,10 @@ void add_walk(CLI::App& app, WalkOptions& options) {
             "--profile", options.profile,
             "Timing constants (rhview.profile/1); else those that calibrate saved, else measured quickly")
         ->type_name("FILE");
-    walk->add_option(
-            "--set", options.set,
-            "Timing constants in ns: c0, c1 per index, c3 per draw call, query (an occlusion query), "
-            "box (one of the box pass)")
-        ->type_name("c1=…,c3=…");
+    walk->add_option("--set", options.set,
+                     "Timing constants in ns: c0, c1 per index, c3 per draw call, query (an occlusion query, "
+                     "whatever its boxes), box (a query of the box pass, likewise)")
+        ->type_name("c1=…,c3=…,query=…");
     walk->add_option("--frames", options.frames, "Frames to measure")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();

@@ -144,6 +144,20 @@ Json instancing_json(const WalkReport& report) {
             {"ms", or_null(report.build.settle_ms)}};
 }
 
+Json answer_costs_json(const std::optional<QueryCosts>& costs) {
+    if (!costs) return nullptr;
+    // What is never asked has an infinite price, which JSON has no word for.
+    const auto number = [](double ns) { return std::isfinite(ns) ? Json(ns) : Json(nullptr); };
+    const auto way = [&](const AnswerCosts& c) {
+        return Json{{"frame_ns", number(c.frame_ns)},
+                    {"query_ns", number(c.query_ns)},
+                    {"box_ns", number(c.box_ns)},
+                    {"pixel_ns", number(c.pixel_ns)},
+                    {"draw_ns", number(c.draw_ns)}};
+    };
+    return {{"hardware_query", way(costs->hardware)}, {"box_pass", way(costs->box_pass)}};
+}
+
 Json summary_json(const WalkReport& report) {
     const bool has_gpu = !report.frames.empty() && report.frames.front().gpu_ms.has_value();
     const bool has_objects = report.scene.dynamic_objects > 0;
@@ -184,7 +198,7 @@ Json summary_json(const WalkReport& report) {
 
 std::string table_row(const char* name, int decimals, const std::vector<double>& values) {
     const Statistics s = summarise(values);
-    return fmt::format("  {:<16}{:>14.{}f}{:>14.{}f}{:>14.{}f}{:>14.{}f}\n", name, s.mean, decimals, s.median,
+    return fmt::format("  {:<18}{:>14.{}f}{:>14.{}f}{:>14.{}f}{:>14.{}f}\n", name, s.mean, decimals, s.median,
                        decimals, s.p95, decimals, s.max, decimals);
 }
 
@@ -212,6 +226,14 @@ Json occlusion_json(const std::optional<OcclusionRecord>& o) {
             {"query_ms", o->query_ms},
             {"exploration_ms", o->exploration_ms},
             {"saved_ms", o->saved_ms}};
+}
+
+std::string method_line(const WalkReport& report) {
+    if (!report.has_occlusion()) return report.method + (report.occlusion == "off" ? " without queries" : "");
+    std::string line = report.method;
+    if (report.mode != "exact") line += ", " + report.mode;
+    if (report.occlusion != "auto") line += ", by " + report.occlusion + " alone";
+    return line;
 }
 
 }  // namespace
@@ -259,6 +281,7 @@ std::string to_json(const WalkReport& report) {
                       {"version", report.device.version},
                       {"timer", report.device.timer}};
     json["profile"] = profile_json(report.profile);
+    json["profile"]["answer_costs"] = answer_costs_json(report.query_costs);
     json["method"] = report.method;
     json["mode"] = report.mode;
     json["submission"] = report.submission;
@@ -332,10 +355,10 @@ std::string to_table(const WalkReport& report) {
         table += fmt::format(
             "replicas: {}, {:.2f} times the source's index bytes\n", report.build.replicas.value_or(0),
             static_cast<double>(report.build.replica_bytes) / static_cast<double>(report.build.index_bytes));
-    table += fmt::format("{}: {} frames of {}x{} on {}, timed by the {}\n\n", report.method,
+    table += fmt::format("{}: {} frames of {}x{} on {}, timed by the {}\n\n", method_line(report),
                          report.frames.size(), report.width, report.height, report.device.renderer,
                          report.device.timer == "gpu" ? "GPU and the wall clock" : "wall clock");
-    table += fmt::format("  {:<16}{:>14}{:>14}{:>14}{:>14}\n", "per frame", "mean", "median", "p95", "max");
+    table += fmt::format("  {:<18}{:>14}{:>14}{:>14}{:>14}\n", "per frame", "mean", "median", "p95", "max");
     const auto row = [&](const char* name, int decimals, auto field) {
         table += table_row(name, decimals, column(report, field));
     };
@@ -344,14 +367,14 @@ std::string to_table(const WalkReport& report) {
         row("sub-draws", 1, [](const FrameRecord& f) { return f.work.sub_draws; });
     row("indices", 0, [](const FrameRecord& f) { return f.work.indices; });
     if (!report.frames.empty() && report.frames.front().visible_set_indices)
-        row("of visible leaves", 0, [](const FrameRecord& f) { return f.visible_set_indices.value_or(0); });
+        row("in seen leaves", 0, [](const FrameRecord& f) { return f.visible_set_indices.value_or(0); });
     if (report.has_occlusion()) {
         const auto of = [&](const char* name, int decimals, auto field) {
             row(name, decimals,
                 [&](const FrameRecord& f) { return field(f.occlusion.value_or(OcclusionRecord{}), f); });
         };
         row("queries", 1, [](const FrameRecord& f) { return f.work.queries; });
-        of("hidden, %", 1,
+        of("of them hidden, %", 1,
            [](const OcclusionRecord& o, const FrameRecord& f) { return 100.0 * kHiddenFraction(o, f); });
         of("ranges skipped", 1, [](const OcclusionRecord& o, const FrameRecord&) {
             return o.conditional_ranges - o.executed_ranges;

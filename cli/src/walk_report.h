@@ -81,9 +81,10 @@ struct WalkReport {
     };
     std::optional<Profile> profile;
     std::string why_no_profile;
-    std::string occlusion;             ///< "auto", "hardware", "boxes" or "off"
-    std::string why_no_occlusion;      ///< where it was wanted and could not be
-    std::uint64_t blocking_reads = 0;  ///< of answers, in the whole walk
+    std::string occlusion;                  ///< "auto", "hardware", "boxes" or "off"
+    std::optional<QueryCosts> query_costs;  ///< what was asked was priced by
+    std::string why_no_occlusion;           ///< where it was wanted and could not be
+    std::uint64_t blocking_reads = 0;       ///< of answers, in the whole walk
     std::uint64_t lost_queries = 0;
     std::string method;
     std::string mode;

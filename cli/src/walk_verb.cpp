@@ -45,7 +45,11 @@ Status check_options(const WalkOptions& options) {
     if (options.visible_set && (options.method == "none" || options.method == "frustum"))
         return Error{fmt::format("--visible-set: {} has no octree; choose another --method", options.method)};
     if (options.mode == "latent" && (options.method != "rhview" || options.occlusion == "off"))
-        return Error{fmt::format("--mode latent: of rhview with occlusion culling only; leave it out")};
+        return Error{"--mode latent: needs --method rhview, and no --occlusion off"};
+    if (options.occlusion != "auto" && options.occlusion != "off" && options.method != "rhview" &&
+        options.method != "rhview-seed")
+        return Error{fmt::format("--occlusion {}: {} asks nothing; choose --method rhview, or leave it out",
+                                 options.occlusion, options.method)};
     if (options.submission != "plain" && options.submission != "multi")
         return Error{fmt::format("--submission {}: unknown; write plain or multi", options.submission)};
     return check_instances(options.instances);
@@ -92,7 +96,8 @@ Result<std::optional<OcclusionOptions>> choose_occlusion(const WalkOptions& opti
     std::optional<QueryCosts> costs = query_costs(wanted, *constants);
     if (!costs && wanted.are_complete()) {
         why_not = "what a query costs is not set (--set query=… or box=…, in ns)";
-        return occlusion;
+        if (options.occlusion == "auto" && options.mode == "exact") return occlusion;
+        return Error{fmt::format("--occlusion {} --mode {}: {}", options.occlusion, options.mode, why_not)};
     }
     if (!costs) {
         Result<gl::RenderTarget> target = gl::RenderTarget::create(size.width, size.height);
@@ -105,6 +110,9 @@ Result<std::optional<OcclusionOptions>> choose_occlusion(const WalkOptions& opti
     const double never = std::numeric_limits<double>::infinity();
     if (options.occlusion == "hardware") costs->box_pass = {.query_ns = never};
     if (options.occlusion == "boxes") costs->hardware = {.query_ns = never};
+    if (!(std::min(costs->hardware.query_ns, costs->box_pass.query_ns) < never))
+        return Error{fmt::format("--occlusion {}: --set gives it no price; set {}", options.occlusion,
+                                 options.occlusion == "boxes" ? "box" : "query")};
     occlusion.emplace();
     occlusion->costs = *costs;
     occlusion->settings.mode = options.mode == "latent" ? OcclusionMode::Latent : OcclusionMode::Exact;
@@ -339,7 +347,7 @@ class Walk {
         reference.label("everything drawn");
         difference.label(fmt::format("missing pixels (red): {}", missing));
         above.label(!plan_.queries.empty()
-                        ? "from above: a colour per call; boxes asked about: red hidden, green seen"
+                        ? "from above: a colour per call, gaps violet; asked about: blue hidden, green seen"
                     : options_.method == "rhview"
                         ? "from above: a colour per call (replicas blue, green), gaps violet, rest grey"
                         : "from above: a colour per call, rest grey, nodes blue, frustum red");
@@ -469,6 +477,7 @@ Result<int> run_walk(const WalkOptions& options) {
 
     WalkReport report = describe(options, *loaded, *method, context->device(), *size);
     report.why_no_occlusion = told.why_no_occlusion;
+    if (method_options.occlusion) report.query_costs = method_options.occlusion->costs;
     if (!loaded->baked) report.build.settle_ms = settle_ms;
     if (constants)
         report.profile = {constants->profile, constants->source, constants->told};
