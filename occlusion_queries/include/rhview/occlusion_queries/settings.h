@@ -63,8 +63,9 @@ struct OcclusionSettings {
     double cold_coverage = 2.0;
 
     /// For planners: boxes of descendants replace an item's box down to this depth, while their areas add up
-    /// to less than this multiple of its own. CHC++: d_max 3, s_max 1.4.
-    double tight_area = 1.4;
+    /// to less than this multiple of its own. CHC++: d_max 3, s_max 1.4. Ours is 0.7: each box has its price,
+    /// and at 1.4 they cost more than they find (docs/occlusion.md, section 10).
+    double tight_area = 0.7;
     std::uint32_t tight_depth = 3;
     /// Members of a multiquery at most. CHC++ collects 20 to 80.
     std::uint32_t max_multiquery = 64;
