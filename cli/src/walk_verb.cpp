@@ -46,6 +46,8 @@ Status check_options(const WalkOptions& options) {
         return Error{fmt::format("--visible-set: {} has no octree; choose another --method", options.method)};
     if (options.mode == "latent" && (options.method != "rhview" || options.occlusion == "off"))
         return Error{"--mode latent: needs --method rhview, and no --occlusion off"};
+    if (options.occlusion == "boxes" && options.method == "rhview-seed")
+        return Error{"--occlusion boxes: rhview-seed asks by hardware queries; leave it out"};
     if (options.occlusion != "auto" && options.occlusion != "off" && options.method != "rhview" &&
         options.method != "rhview-seed")
         return Error{fmt::format("--occlusion {}: {} asks nothing; choose --method rhview, or leave it out",
@@ -456,7 +458,7 @@ Result<int> run_walk(const WalkOptions& options) {
     const double settle_ms = settle_timer.elapsed_ms();
     MethodOptions method_options{options.leaf, options.replica_budget, {}, {}};
     if (constants) method_options.costs = draw_costs(constants->profile, options.submission == "multi");
-    WalkReport told;
+    std::string why_no_occlusion;
     std::vector<std::uint32_t> object_indices;
     if (options.method == "rhview" || options.method == "rhview-seed") {
         const auto count = [&](const auto& placed) {
@@ -466,7 +468,7 @@ Result<int> run_walk(const WalkOptions& options) {
         std::ranges::for_each(loaded->scene.dynamic_objects, count);
         std::ranges::for_each(loaded->scene.static_instances, count);
         Result<std::optional<OcclusionOptions>> occlusion =
-            choose_occlusion(options, *wanted, constants, *size, told.why_no_occlusion);
+            choose_occlusion(options, *wanted, constants, *size, why_no_occlusion);
         if (!occlusion) return occlusion.error();
         method_options.occlusion = *occlusion;
         if (method_options.occlusion) method_options.occlusion->object_indices = object_indices;
@@ -476,7 +478,7 @@ Result<int> run_walk(const WalkOptions& options) {
     if (!method) return method.error();
 
     WalkReport report = describe(options, *loaded, *method, context->device(), *size);
-    report.why_no_occlusion = told.why_no_occlusion;
+    report.why_no_occlusion = why_no_occlusion;
     if (method_options.occlusion) report.query_costs = method_options.occlusion->costs;
     if (!loaded->baked) report.build.settle_ms = settle_ms;
     if (constants)

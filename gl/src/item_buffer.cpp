@@ -55,13 +55,8 @@ Result<ItemBuffer> ItemBuffer::create(int width, int height) {
     result.height_ = height;
     result.items_ = make_renderbuffer(GL_R32UI, width, height);
     result.depth_ = make_renderbuffer(GL_DEPTH_COMPONENT32F, width, height);
-    GLuint framebuffer = 0;
-    glGenFramebuffers(1, &framebuffer);
-    result.framebuffer_ = Framebuffer(framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, result.items_.name());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, result.depth_.name());
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    result.framebuffer_ = make_framebuffer(result.items_, result.depth_);
+    if (result.framebuffer_.name() == 0)
         return Error{"the driver can't make an item buffer of " + std::to_string(width) + "x" +
                      std::to_string(height) + "; choose a smaller one"};
     return result;

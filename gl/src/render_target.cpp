@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "renderbuffer.h"
 #include "state_guard.h"
@@ -21,6 +22,17 @@ Renderbuffer make_renderbuffer(unsigned format, int width, int height) {
     glBindRenderbuffer(GL_RENDERBUFFER, name);
     glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
     return Renderbuffer(name);
+}
+
+Framebuffer make_framebuffer(const Renderbuffer& colour, const Renderbuffer& depth) {
+    GLuint name = 0;
+    glGenFramebuffers(1, &name);
+    Framebuffer framebuffer(name);
+    glBindFramebuffer(GL_FRAMEBUFFER, name);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour.name());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.name());
+    const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    return complete ? std::move(framebuffer) : Framebuffer();
 }
 
 Result<RenderTarget> RenderTarget::create(int width, int height) {
@@ -39,13 +51,8 @@ Result<RenderTarget> RenderTarget::create(int width, int height) {
     target.height_ = height;
     target.colour_ = make_renderbuffer(GL_RGBA8, width, height);
     target.depth_ = make_renderbuffer(GL_DEPTH_COMPONENT32F, width, height);
-    GLuint framebuffer = 0;
-    glGenFramebuffers(1, &framebuffer);
-    target.framebuffer_ = Framebuffer(framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.colour_.name());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth_.name());
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    target.framebuffer_ = make_framebuffer(target.colour_, target.depth_);
+    if (target.framebuffer_.name() == 0)
         return Error{"the driver can't make a picture of " + size +
                      " with 32-bit depth; choose a smaller one"};
     return target;

@@ -241,9 +241,10 @@ NodeVisibility::Parts NodeVisibility::visit_parts(std::uint32_t index, PlaneMask
 
 void NodeVisibility::add_objects(std::span<const Aabb> boxes) {
     const std::uint32_t first = first_object_item();
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        PlaneMask mask = frustum_->mask;
-        if (classify(*frustum_, boxes[i], mask) == Containment::Outside) continue;
+    objects_in_view_.clear();
+    append_visible_objects(*frustum_, boxes, objects_in_view_);
+    for (const ObjectId object : objects_in_view_) {
+        const auto i = static_cast<std::uint32_t>(object);
         scheduler_.visit(first + i);
         const bool known = i < options_.object_indices.size();
         OcclusionCandidate candidate = candidate_of(first + i, boxes[i]);

@@ -32,12 +32,13 @@ void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frus
 void SeedPlanner::plan(const FrameInput& input, FramePlan& plan) {
     const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
     seed_draw_list(octree_, frustum, list_);
-    finish_octree_plan(octree_, list_, frustum, input, sorter_, plan);
+    FrameInput octree_input = input;
+    if (objects_) octree_input.object_boxes = {};
+    finish_octree_plan(octree_, list_, frustum, octree_input, sorter_, plan);
     if (!objects_) return;
     double static_ns = 0.0;
     for (const DrawRange& range : plan.opaque)
         static_ns += costs_.draw_ns + costs_.index_ns * range.index_count;
-    plan.objects.clear();
     objects_->decide(input, frustum, costs_, static_ns, plan);
 }
 

@@ -41,6 +41,7 @@ TEST_F(BadInput, unknown_verbs_options_methods_and_modes) {
     refuse("walk town --mode guess", {"--mode guess"}, 0);
     refuse("walk town --mode latent --method octree", {"--mode latent", "rhview"}, 0);
     refuse("walk town --occlusion never", {"--occlusion never", "auto, hardware, boxes, off"}, 0);
+    refuse("walk soup --occlusion boxes --method rhview-seed", {"--occlusion boxes", "rhview-seed"}, 0);
     refuse("walk soup --occlusion boxes --method octree", {"--occlusion boxes", "octree"}, 0);
     refuse("walk soup --set c1=1,c3=2 --mode latent", {"--mode latent", "query=…"}, 0);
     refuse("walk soup --set c1=1,c3=2,query=3 --occlusion boxes", {"--occlusion boxes", "box"}, 0);

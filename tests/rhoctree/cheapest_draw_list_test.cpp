@@ -175,6 +175,18 @@ std::vector<NodeAlternative> random_alternatives(const RhOctree& octree, const F
     return alternatives;
 }
 
+/// By first index: corners are not shared. What is left to alternatives counts as drawn.
+std::vector<bool> drawn_triangles(const Balls& balls, const RhOctree& octree, const DrawList& list) {
+    std::vector<bool> drawn(balls.positions.size(), false);
+    const auto mark = [&](const DrawRange& range) {
+        for (std::uint32_t k = 0; k < range.index_count; k += 3)
+            drawn[octree.indices()[range.first_index + k]] = true;
+    };
+    for (const DrawRange& range : list.ranges) mark(range);
+    for (const AlternativeRange& range : list.alternatives) mark(range.range);
+    return drawn;
+}
+
 struct Case {
     std::uint32_t leaf;
     std::uint32_t record;
@@ -255,7 +267,7 @@ TEST_P(CheapestDrawList, shows_every_front_facing_triangle_in_view_or_leaves_it_
     const RhOctree octree = build_octree(batches, options_of(leaf, record, budget, costs)).value();
     Uniform uniform(102);
     DrawListSolver solver;
-    DrawList with, without;
+    DrawList with;
     std::size_t left = 0;
     for (int i = 0; i < 40; ++i) {
         const View view = random_view(uniform);
@@ -266,14 +278,7 @@ TEST_P(CheapestDrawList, shows_every_front_facing_triangle_in_view_or_leaves_it_
         solver.solve(octree, frustum, viewpoint, costs, with, alternatives);
         std::vector<DrawRange> to_show;
         append_ranges_to_show(octree, frustum, viewpoint, to_show);
-        // Corners are not shared: a triangle is known by its first index.
-        std::vector<bool> drawn(balls.positions.size(), false);
-        const auto mark = [&](const DrawRange& range) {
-            for (std::uint32_t k = 0; k < range.index_count; k += 3)
-                drawn[octree.indices()[range.first_index + k]] = true;
-        };
-        for (const DrawRange& range : with.ranges) mark(range);
-        for (const AlternativeRange& range : with.alternatives) mark(range.range);
+        const std::vector<bool> drawn = drawn_triangles(balls, octree, with);
         const auto faces_eye = [&](std::uint32_t first) {
             const auto at = [&](std::uint32_t k) {
                 return glm::dvec3(balls.positions[octree.indices()[first + k]]);
@@ -303,11 +308,7 @@ TEST_P(CheapestDrawList, shows_every_front_facing_triangle_in_view) {
         const View view = random_view(uniform);
         const Frustum frustum = make_frustum(view);
         solver.solve(octree, frustum, make_viewpoint(view), costs, list);
-        // Corners are not shared: a triangle is known by its first index.
-        std::vector<bool> drawn(balls.positions.size(), false);
-        for (const DrawRange& range : list.ranges)
-            for (std::uint32_t k = 0; k < range.index_count; k += 3)
-                drawn[octree.indices()[range.first_index + k]] = true;
+        const std::vector<bool> drawn = drawn_triangles(balls, octree, list);
         const glm::dvec3 eye = view.eye();
         for (const TriangleBatch& batch : batches) {
             for (std::size_t t = 0; t < batch.indices.size(); t += 3) {

@@ -113,6 +113,7 @@ class NodeVisibility {
     DrawCosts costs_;
     Lens lens_;
     double grain_ns_ = 0.0;
+    std::vector<ObjectId> objects_in_view_;
     std::vector<OcclusionCandidate> candidates_;
     OcclusionDecisions decided_;
     std::vector<NodeAlternative> alternatives_;
