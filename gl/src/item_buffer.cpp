@@ -103,7 +103,8 @@ void ItemBuffer::draw(const DrawState& state, std::uint32_t first_index, std::ui
 }
 
 std::vector<std::uint32_t> ItemBuffer::visible_items(std::span<const ItemRange> ranges,
-                                                     const SceneBuffers& scene, const View& view) {
+                                                     const SceneBuffers& scene, const View& view,
+                                                     std::span<const glm::dmat4> placements) {
     const StateGuard state_guard(has_clip_control());
     const TargetGuard target_guard;
     begin(view);
@@ -111,8 +112,9 @@ std::vector<std::uint32_t> ItemBuffer::visible_items(std::span<const ItemRange> 
     for (const ItemRange& part : ranges)
         draw(scene.batches()[index_of(part.range.batch)], part.range.first_index, part.range.index_count,
              part.item + 1);
-    for (const ObjectInstance& object : scene.objects()) {
-        set_transform(view, scene.origin(), object.scene_from_mesh);
+    for (std::size_t i = 0; i < scene.objects().size(); ++i) {
+        const ObjectInstance& object = scene.objects()[i];
+        set_transform(view, scene.origin(), i < placements.size() ? placements[i] : object.scene_from_mesh);
         draw(object.state, object.first_index, object.index_count, kNothing);
     }
     pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));

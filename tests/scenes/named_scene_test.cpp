@@ -377,9 +377,11 @@ TEST(NamedScene, a_spec_is_a_named_scene_by_its_part_before_the_colon) {
 
 TEST(NamedScene, bad_specs_are_refused_with_the_mend) {
     EXPECT_EQ(refusal(""),
-              "there is no named scene ''; the named scenes are town, plant, indoor, farm, city, crowd, swarm and soup");
+              "there is no named scene ''; the named scenes are town, plant, indoor, farm, city, crowd, "
+              "swarm and soup");
     EXPECT_EQ(refusal("tow:size=20"),
-              "there is no named scene 'tow'; the named scenes are town, plant, indoor, farm, city, crowd, swarm and soup");
+              "there is no named scene 'tow'; the named scenes are town, plant, indoor, farm, city, crowd, "
+              "swarm and soup");
     EXPECT_EQ(refusal("town:length=20"),
               "town: there is no parameter 'length'; town has size, seed and materials");
     EXPECT_EQ(refusal("town:"), "town: a parameter is empty; write town:size=700");

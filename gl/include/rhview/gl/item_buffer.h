@@ -30,10 +30,11 @@ class ItemBuffer {
   public:
     static Result<ItemBuffer> create(int width, int height);
 
-    /// Draws `ranges` (by batch, best) and all objects of `scene`; the items that are seen, ascending. Of
-    /// surfaces at the same depth the first drawn is seen. State is put back.
+    /// Draws `ranges` (by batch, best) and all objects of `scene`, at full detail, where `placements` (by
+    /// `ObjectId`) says, or if that is empty the scene; the items that are seen, ascending. Of surfaces at
+    /// the same depth the first drawn is seen. State is put back.
     std::vector<std::uint32_t> visible_items(std::span<const ItemRange> ranges, const SceneBuffers& scene,
-                                             const View& view);
+                                             const View& view, std::span<const glm::dmat4> placements = {});
 
   private:
     struct Uniforms {
