@@ -24,7 +24,7 @@ void FrustumObjects::plan(const FrameInput& input, FramePlan& plan) {
             plan.opaque.push_back(objects_[i].range);
             plan.chosen.push_back(static_cast<std::uint32_t>(i));
         }
-    append_visible_objects(frustum, input.object_boxes, plan.objects);
+    append_visible_objects(frustum, input.object_boxes, plan.objects, input.object_alive);
     sorter_.sort(input.object_groups, plan);
     plan.nodes_visited = objects_.size();
 }

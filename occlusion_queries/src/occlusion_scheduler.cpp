@@ -51,6 +51,11 @@ void OcclusionScheduler::resize(std::size_t count) {
     state_->histories.resize(count);
 }
 
+void OcclusionScheduler::forget(std::uint32_t item) {
+    RHVIEW_ASSERT(item < state_->histories.size());
+    state_->histories[item] = {};
+}
+
 void OcclusionScheduler::set_costs(const QueryCosts& costs) {
     state_->costs = usable(costs);
 }

@@ -46,7 +46,8 @@ NodeVisibility::NodeVisibility(const RhOctree& octree, const OcclusionOptions& o
       pieces_(octree.pieces()),
       options_(options),
       scheduler_(options.settings, options.costs),
-      grain_ns_(kUnknownGrain * cheapest_query_ns(options.costs)) {
+      query_ns_(cheapest_query_ns(options.costs)),
+      grain_ns_(kUnknownGrain * query_ns_) {
     scheduler_.resize(first_object_item());
     indices_before_.reserve(octree.pieces().size() + 1);
     std::uint32_t sum = 0;
@@ -241,23 +242,6 @@ NodeVisibility::Parts NodeVisibility::visit_parts(std::uint32_t index, PlaneMask
     return all;
 }
 
-void NodeVisibility::add_objects(std::span<const Aabb> boxes) {
-    const std::uint32_t first = first_object_item();
-    objects_in_view_.clear();
-    append_visible_objects(*frustum_, boxes, objects_in_view_);
-    for (const ObjectId object : objects_in_view_) {
-        const auto i = static_cast<std::uint32_t>(object);
-        scheduler_.visit(first + i);
-        const bool known = i < options_.object_indices.size();
-        OcclusionCandidate candidate = candidate_of(first + i, boxes[i]);
-        const double index_ns = std::max(costs_.index_ns, options_.shown_index_ns);
-        candidate.render_ns =
-            known ? static_cast<float>(index_ns * options_.object_indices[i] + costs_.draw_ns) : 0.0f;
-        candidate.testable = known && is_testable(boxes[i]);
-        candidates_.push_back(candidate);
-    }
-}
-
 void NodeVisibility::decide(const FrameInput& input, const Frustum& frustum, const DrawCosts& costs,
                             double frame_ns, FramePlan& plan) {
     frustum_ = &frustum;
@@ -267,10 +251,12 @@ void NodeVisibility::decide(const FrameInput& input, const Frustum& frustum, con
     leaf_of_candidate_.clear();
     containment_.assign(nodes_.size(), KnownContainment::kUnknown);
     make_lens(input, frustum);
-    scheduler_.resize(first_object_item() + input.object_boxes.size());
+    scheduler_.resize(first_object_item() + 2 * input.object_boxes.size());
+    for (const ObjectId object : input.new_objects)
+        scheduler_.forget(object_item(static_cast<std::uint32_t>(object)));
     scheduler_.begin_frame(frame_ns, lens_.screen_pixels);
     if (!nodes_.empty()) visit(0, frustum.mask, Belief::Unknown);
-    add_objects(input.object_boxes);
+    add_objects(input);
     scheduler_.decide(candidates_, decided_);
     write_queries(input.object_boxes, plan);
     write_nodes();
@@ -279,10 +265,14 @@ void NodeVisibility::decide(const FrameInput& input, const Frustum& frustum, con
     frustum_ = nullptr;
 }
 
-void NodeVisibility::append_boxes(std::uint32_t item, std::span<const Aabb> object_boxes,
+void NodeVisibility::append_boxes(std::uint32_t candidate, std::span<const Aabb> object_boxes,
                                   FramePlan& plan) const {
-    if (item >= first_object_item())
-        return plan.query_boxes.push_back(object_boxes[item - first_object_item()]);
+    const std::uint32_t item = candidates_[candidate].item;
+    if (item >= first_object_item()) {
+        const std::uint32_t region = region_of_candidate_[candidate - leaf_of_candidate_.size()];
+        return plan.query_boxes.push_back(region == kNoRegion ? object_boxes[(item - first_object_item()) / 2]
+                                                              : region_boxes_[region]);
+    }
     if (!is_node(item)) return plan.query_boxes.push_back(pieces_[item - nodes_.size()].bounds);
     for (std::uint32_t b = first_box_[item]; b < first_box_[item + 1]; ++b)
         plan.query_boxes.push_back(octree_.node(tight_nodes_[b]).bounds);
@@ -292,7 +282,7 @@ void NodeVisibility::write_queries(std::span<const Aabb> object_boxes, FramePlan
     for (const ScheduledQuery& query : decided_.queries) {
         const auto first = static_cast<std::uint32_t>(plan.query_boxes.size());
         for (std::uint32_t m = query.first_member; m < query.first_member + query.member_count; ++m)
-            append_boxes(candidates_[decided_.members[m]].item, object_boxes, plan);
+            append_boxes(decided_.members[m], object_boxes, plan);
         const auto count = static_cast<std::uint32_t>(plan.query_boxes.size()) - first;
         plan.queries.push_back({query.ticket, first, count, query.way, query.counts_samples});
     }
@@ -319,17 +309,6 @@ void NodeVisibility::write_nodes() {
             continue;
         }
         alternative_candidates_.push_back(c);
-    }
-}
-
-void NodeVisibility::write_objects(FramePlan& plan) const {
-    for (std::size_t c = leaf_of_candidate_.size(); c < candidates_.size(); ++c) {
-        const ObjectId object{candidates_[c].item - first_object_item()};
-        const OcclusionDecision& decision = decided_.decisions[c];
-        if (decision.action == OcclusionAction::QueryFirst)
-            plan.conditional_objects.push_back({object, decision.query});
-        else if (decision.action != OcclusionAction::Skip)
-            plan.objects.push_back(object);
     }
 }
 

@@ -26,7 +26,7 @@ void RhviewPlanner::plan(const FrameInput& input, FramePlan& plan) {
         alternatives = visibility_->alternatives();
         known = visibility_->known_containment();
     } else {
-        append_visible_objects(frustum, input.object_boxes, plan.objects);
+        append_visible_objects(frustum, input.object_boxes, plan.objects, input.object_alive);
     }
     solver_.solve(octree_, frustum, viewpoint, costs_, list_, alternatives, known);
     plan.opaque.assign(list_.ranges.begin(), list_.ranges.end());

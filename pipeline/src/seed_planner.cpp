@@ -24,7 +24,7 @@ void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frus
     plan.clear();
     append_ranges(octree, list, plan.opaque);
     sorter.ranges.sort(plan.opaque, octree.batch_count());
-    append_visible_objects(frustum, input.object_boxes, plan.objects);
+    append_visible_objects(frustum, input.object_boxes, plan.objects, input.object_alive);
     sorter.objects.sort(input.object_groups, plan);
     for (const NodeId node : list.nodes) plan.chosen.push_back(static_cast<std::uint32_t>(node));
     plan.nodes_visited = list.nodes_visited;

@@ -81,6 +81,9 @@ class OcclusionScheduler {
 
     /// Items are below `count`; new ones are Unknown, those beyond are forgotten.
     void resize(std::size_t count);
+    /// `item` is another thing from now on, or somewhere else: nothing is known of it, and answers on the way
+    /// say nothing. Before the frame's first `visit`.
+    void forget(std::uint32_t item);
     /// A cost that is no number, or below 0, is not known: what it is part of is never asked.
     void set_costs(const QueryCosts& costs);
     [[nodiscard]] const OcclusionSettings& settings() const;

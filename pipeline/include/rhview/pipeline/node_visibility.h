@@ -12,6 +12,7 @@
 #include "rhview/frustum/frustum.h"
 #include "rhview/occlusion_queries/occlusion_scheduler.h"
 #include "rhview/pipeline/frame_planner.h"
+#include "rhview/pipeline/object_regions.h"
 #include "rhview/rhoctree/draw_list.h"
 #include "rhview/rhoctree/rhoctree.h"
 
@@ -26,9 +27,15 @@ struct OcclusionOptions {
     /// The indices of a dynamic object, by `ObjectId`; an object beyond the end counts as none and is drawn
     /// at once.
     std::span<const std::uint32_t> object_indices{};
+    /// Queries about objects say how many samples were seen: hardware queries only.
+    bool counts_samples = false;
 };
 
-/// The nodes of the octree are the scheduler's items, its pieces and the dynamic objects follow them.
+/// The nodes of the octree are the scheduler's items, its pieces and the objects follow them, and between the
+/// objects regions of them.
+///
+/// Many objects that are too cheap to be asked about one by one are asked about by region: one box, one
+/// answer for up to 64 of them. Dearer ones are asked about by region while all of it is believed hidden.
 ///
 /// A node believed hidden is asked about as a whole, with the boxes of its descendants where these are tight;
 /// one believed visible is descended into, down to its leaves, and to their pieces where these are much
@@ -66,6 +73,7 @@ class NodeVisibility {
 
         void add(const Parts& part);
     };
+    static constexpr std::uint32_t kNoRegion = 0xffffffffu;
 
     /// How boxes look from the eye.
     struct Lens {
@@ -87,13 +95,29 @@ class NodeVisibility {
     void merge(std::uint32_t index, std::size_t first_candidate, Parts& parts);
     Parts add_node(std::uint32_t index, bool testable, Belief belief);
     Parts add_piece(std::uint32_t piece, Belief otherwise);
-    void add_objects(std::span<const Aabb> boxes);
+    void add_objects(const FrameInput& input);
+    void price_objects(const FrameInput& input);
+    [[nodiscard]] double object_ns(const FrameInput& input, std::size_t object) const;
+    Parts add_object(const FrameInput& input, std::uint32_t object, Belief otherwise);
+    void visit_region(const FrameInput& input, std::uint32_t in_view);
+    bool describe_region(const FrameInput& input, RegionInView& region, OcclusionCandidate& candidate,
+                         Aabb& box);
+    void add_region(std::uint32_t in_view, const OcclusionCandidate& candidate);
+    template <class Each>
+    void for_each_object(const RegionInView& region, Each each) const;
     [[nodiscard]] double render_ns(std::uint32_t index) const;
     [[nodiscard]] bool is_node(std::uint32_t item) const { return item < nodes_.size(); }
     [[nodiscard]] std::uint32_t first_object_item() const {
         return static_cast<std::uint32_t>(nodes_.size() + pieces_.size());
     }
-    void append_boxes(std::uint32_t item, std::span<const Aabb> object_boxes, FramePlan& plan) const;
+    /// Objects and regions take turns: either number stays what it is whatever the other does.
+    [[nodiscard]] std::uint32_t object_item(std::uint32_t object) const {
+        return first_object_item() + 2 * object;
+    }
+    [[nodiscard]] std::uint32_t region_item(std::uint32_t region) const {
+        return first_object_item() + 2 * region + 1;
+    }
+    void append_boxes(std::uint32_t candidate, std::span<const Aabb> object_boxes, FramePlan& plan) const;
     void write_queries(std::span<const Aabb> object_boxes, FramePlan& plan) const;
     void write_nodes();
     void write_objects(FramePlan& plan) const;
@@ -114,7 +138,14 @@ class NodeVisibility {
     const Frustum* frustum_ = nullptr;
     DrawCosts costs_;
     Lens lens_;
+    double query_ns_ = 0.0;  ///< the cheapest question
     double grain_ns_ = 0.0;
+    ObjectRegions regions_;
+    std::vector<RegionInView> regions_in_view_;
+    std::vector<Aabb> region_boxes_;                  ///< of those
+    std::vector<std::uint32_t> region_of_candidate_;  ///< by candidate that is an object or a region
+    std::vector<std::uint32_t> group_sizes_;          ///< objects by group
+    double mean_object_ns_ = 0.0;
     std::vector<ObjectId> objects_in_view_;
     std::vector<PlaneMask> containment_;  ///< by node
     std::vector<OcclusionCandidate> candidates_;

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "rhview/pipeline/moving_objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "rhview/base/assert.h"
+
+namespace rhview {
+namespace {
+
+/// Of a distance that is computed and then rounded to float.
+constexpr double kRounding = 1e-6;
+
+/// `box` and all that is within `distance` of it, rounded outwards.
+Aabb grown(const Aabb& box, double distance) {
+    const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
+    const double largest = std::max({reach.x, reach.y, reach.z});
+    const auto margin = static_cast<float>(distance * (1.0 + kRounding) + largest * kRounding);
+    return {box.min - margin, box.max + margin};
+}
+
+bool holds(const Aabb& outer, const Aabb& inner) {
+    return glm::all(glm::lessThanEqual(outer.min, inner.min)) &&
+           glm::all(glm::lessThanEqual(inner.max, outer.max));
+}
+
+/// Different for neighbours, so that what falls asleep together does not wake together: 0.75 to 1.25.
+double spread(std::uint32_t object) {
+    constexpr double kGoldenRatio = 0.6180339887498949;
+    const double turn = kGoldenRatio * object;
+    return 0.75 + 0.5 * (turn - std::floor(turn));
+}
+
+}  // namespace
+
+bool MovingObjects::later(const Expiry& a, const Expiry& b) {
+    return a.until_s != b.until_s ? a.until_s > b.until_s : a.object > b.object;
+}
+
+void MovingObjects::put(ObjectId object, const Aabb& box) {
+    Slot& slot = slots_[index_of(object)];
+    slot.told = volumes_[index_of(object)] = box;
+    slot.told_s = time_s_;
+    wake(static_cast<std::uint32_t>(object));
+}
+
+void MovingObjects::wake(std::uint32_t object) {
+    Slot& slot = slots_[object];
+    slot.asleep = false;
+    if (slot.listed) return;
+    slot.listed = true;
+    awake_.push_back(ObjectId{object});
+}
+
+ObjectId MovingObjects::add(const Aabb& box, std::uint32_t group, double top_speed) {
+    auto number = static_cast<std::uint32_t>(slots_.size());
+    if (!free_.empty()) {
+        std::ranges::pop_heap(free_, std::greater());
+        number = free_.back();
+        free_.pop_back();
+    } else {
+        slots_.emplace_back();
+        volumes_.emplace_back();
+        groups_.emplace_back();
+        alive_.resize((slots_.size() + 63) / 64);
+    }
+    Slot& slot = slots_[number];
+    slot.period_s = settings_.first_period_s;
+    slot.top_speed = top_speed;
+    slot.expired = false;
+    groups_[number] = group;
+    alive_[number / 64] |= std::uint64_t{1} << (number % 64);
+    new_.push_back(ObjectId{number});
+    put(ObjectId{number}, box);
+    return ObjectId{number};
+}
+
+void MovingObjects::remove(ObjectId object) {
+    const std::size_t i = index_of(object);
+    RHVIEW_ASSERT(i < slots_.size() && is_alive(i));
+    alive_[i / 64] &= ~(std::uint64_t{1} << (i % 64));
+    slots_[i].asleep = false;
+    free_.push_back(static_cast<std::uint32_t>(object));
+    std::ranges::push_heap(free_, std::greater());
+}
+
+void MovingObjects::begin_frame(double time_s) {
+    RHVIEW_ASSERT(time_s >= time_s_);
+    time_s_ = time_s;
+    while (!expiries_.empty() && expiries_.front().until_s <= time_s) {
+        const Expiry expiry = expiries_.front();
+        std::ranges::pop_heap(expiries_, later);
+        expiries_.pop_back();
+        Slot& slot = slots_[expiry.object];
+        if (!slot.asleep || slot.until_s != expiry.until_s) continue;
+        slot.expired = true;
+        wake(expiry.object);
+    }
+    std::erase_if(awake_, [&](ObjectId object) {
+        Slot& slot = slots_[index_of(object)];
+        slot.listed = is_alive(index_of(object)) && !slot.asleep;
+        return !slot.listed;
+    });
+}
+
+void MovingObjects::move(ObjectId object, const Aabb& box) {
+    const Slot& slot = slots_[index_of(object)];
+    RHVIEW_ASSERT(is_alive(index_of(object)));
+    const bool promised = std::isfinite(slot.top_speed);
+    const bool kept = !promised || holds(grown(slot.told, slot.top_speed * (time_s_ - slot.told_s)), box);
+    RHVIEW_ASSERT(kept);
+    if (kept) return put(object, box);
+    ++broken_promises_;
+    teleport(object, box);
+}
+
+void MovingObjects::teleport(ObjectId object, const Aabb& box) {
+    RHVIEW_ASSERT(is_alive(index_of(object)));
+    new_.push_back(object);
+    put(object, box);
+}
+
+void MovingObjects::describe(FrameInput& input) const {
+    input.object_boxes = volumes_;
+    input.object_groups = groups_;
+    input.object_alive = alive_;
+    input.new_objects = new_;
+}
+
+void MovingObjects::put_to_sleep(std::uint32_t object) {
+    Slot& slot = slots_[object];
+    if (slot.expired) slot.period_s = std::min(2.0 * slot.period_s, settings_.greatest_period_s);
+    slot.expired = false;
+    slot.asleep = true;
+    slot.listed = false;
+    slot.until_s = time_s_ + slot.period_s * spread(object);
+    volumes_[object] = grown(slot.told, slot.top_speed * (slot.until_s - slot.told_s));
+    expiries_.push_back({slot.until_s, object});
+    std::ranges::push_heap(expiries_, later);
+}
+
+void MovingObjects::end_frame(const FramePlan& plan) {
+    seen_.assign(alive_.size(), 0);
+    for (const ObjectId object : plan.objects) {
+        const std::size_t i = index_of(object);
+        if (i >= slots_.size()) continue;
+        seen_[i / 64] |= std::uint64_t{1} << (i % 64);
+        Slot& slot = slots_[i];
+        if (!slot.asleep) continue;
+        slot.period_s = std::max(0.5 * slot.period_s, settings_.least_period_s);
+        wake(static_cast<std::uint32_t>(i));
+    }
+    std::erase_if(awake_, [&](ObjectId object) {
+        const std::size_t i = index_of(object);
+        const bool seen = (seen_[i / 64] >> (i % 64) & 1) != 0;
+        Slot& slot = slots_[i];
+        slot.expired = slot.expired && !seen;
+        if (seen || !is_alive(i) || !std::isfinite(slot.top_speed)) return false;
+        put_to_sleep(static_cast<std::uint32_t>(i));
+        return true;
+    });
+    new_.clear();
+}
+
+}  // namespace rhview

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "rhview/pipeline/moving_objects.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "fake_gpu.h"
+#include "rhview/base/assert.h"
+#include "rhview/pipeline/rhview_planner.h"
+#include "uniform.h"
+
+namespace rhview {
+namespace {
+
+const Aabb kUnitBox{glm::vec3(-0.5f), glm::vec3(0.5f)};
+
+Aabb box_at(const glm::dvec3& centre, double half = 0.5) {
+    return {glm::vec3(centre - half), glm::vec3(centre + half)};
+}
+
+FramePlan plan_of(std::initializer_list<std::uint32_t> objects) {
+    FramePlan plan;
+    for (const std::uint32_t object : objects) plan.objects.push_back(ObjectId{object});
+    return plan;
+}
+
+bool is_due(const MovingObjects& objects, ObjectId object) {
+    return std::ranges::count(objects.due(), object) == 1;
+}
+
+Aabb volume_of(const MovingObjects& objects, ObjectId object) {
+    FrameInput input;
+    objects.describe(input);
+    return input.object_boxes[index_of(object)];
+}
+
+TEST(MovingObjects, numbers_of_removed_objects_are_given_again_the_lowest_first) {
+    MovingObjects objects;
+    for (std::uint32_t i = 0; i < 5; ++i) EXPECT_EQ(objects.add(kUnitBox, i, 1.0), ObjectId{i});
+    objects.remove(ObjectId{3});
+    objects.remove(ObjectId{1});
+    EXPECT_EQ(objects.add(kUnitBox, 7, 1.0), ObjectId{1});
+    FrameInput input;
+    objects.describe(input);
+    EXPECT_FALSE(input.is_alive(3));
+    EXPECT_TRUE(input.is_alive(1));
+    EXPECT_EQ(input.object_groups[1], 7u);
+    EXPECT_EQ(objects.add(kUnitBox, 8, 1.0), ObjectId{3});
+    EXPECT_EQ(objects.add(kUnitBox, 8, 1.0), ObjectId{5});
+    objects.begin_frame(0.0);
+    EXPECT_EQ(objects.due().size(), 6u);
+    for (std::uint32_t i = 0; i < 6; ++i) EXPECT_TRUE(is_due(objects, ObjectId{i}));
+}
+
+TEST(MovingObjects, what_is_not_drawn_sleeps_in_a_volume_that_holds_it_until_it_expires) {
+    MovingObjects objects;
+    const ObjectId seen = objects.add(kUnitBox, 0, 2.0), hidden = objects.add(box_at({9, 0, 0}), 0, 2.0);
+    objects.begin_frame(1.0);
+    for (const ObjectId object : {seen, hidden})
+        objects.move(object, object == seen ? kUnitBox : box_at({9, 0, 0}));
+    objects.end_frame(plan_of({0}));
+    EXPECT_FALSE(objects.is_asleep(seen));
+    ASSERT_TRUE(objects.is_asleep(hidden));
+    // First period 0.25 s, a quarter more or less: at least 0.375 m at 2 m/s.
+    const Aabb volume = volume_of(objects, hidden);
+    EXPECT_LE(volume.min.x, 8.5f - 0.375f);
+    EXPECT_GE(volume.min.x, 8.5f - 0.7f);
+    objects.begin_frame(1.1);
+    EXPECT_TRUE(is_due(objects, seen));
+    EXPECT_FALSE(is_due(objects, hidden));
+    objects.end_frame(plan_of({0}));
+    EXPECT_EQ(volume_of(objects, hidden), volume);
+    objects.begin_frame(1.4);
+    EXPECT_TRUE(is_due(objects, hidden));
+}
+
+TEST(MovingObjects, periods_grow_when_they_expire_unseen_and_shrink_when_the_volume_is_drawn) {
+    MovingObjects objects;
+    const ObjectId object = objects.add(kUnitBox, 0, 1.0);
+    double time = 0.0;
+    std::size_t told = 0;
+    for (; time < 100.0; time += 0.05) {
+        objects.begin_frame(time);
+        if (is_due(objects, object)) {
+            objects.move(object, kUnitBox);
+            ++told;
+        }
+        objects.end_frame({});
+    }
+    EXPECT_GT(told, 8u);
+    EXPECT_LT(told, 30u);  // of 2,000 frames
+    const auto size = [&] { return volume_of(objects, object).extent().x; };
+    const float long_asleep = size();
+    EXPECT_GT(long_asleep, 1.0f + 2.0f * 6.0f);
+    // Drawn: awake, and for a shorter time asleep.
+    objects.end_frame(plan_of({0}));
+    EXPECT_FALSE(objects.is_asleep(object));
+    objects.begin_frame(time += 0.05);
+    objects.move(object, kUnitBox);
+    objects.end_frame({});
+    EXPECT_LT(size(), 0.7f * long_asleep);
+}
+
+TEST(MovingObjects, without_a_promise_an_object_never_sleeps) {
+    for (const double speed : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+        MovingObjects objects;
+        const ObjectId object = objects.add(kUnitBox, 0, speed);
+        for (int frame = 0; frame < 5; ++frame) {
+            objects.begin_frame(frame);
+            EXPECT_TRUE(is_due(objects, object));
+            objects.move(object, box_at({100.0 * frame, 0, 0}));
+            objects.end_frame({});
+        }
+        EXPECT_EQ(objects.broken_promises(), 0u);
+    }
+}
+
+int asserts = 0;
+void count_assert(const char*, const char*, int) {
+    ++asserts;
+}
+
+TEST(MovingObjects, a_broken_promise_is_asserted_and_the_object_is_new_again) {
+    const AssertHandler before = set_assert_handler(count_assert);
+    asserts = 0;
+    MovingObjects objects;
+    const ObjectId object = objects.add(kUnitBox, 0, 1.0);
+    objects.begin_frame(0.0);
+    objects.end_frame({});
+    objects.begin_frame(10.0);
+    objects.move(object, box_at({11.0, 0, 0}));
+    set_assert_handler(before);
+    EXPECT_EQ(objects.broken_promises(), 1u);
+#if RHVIEW_ENABLE_ASSERTS
+    EXPECT_EQ(asserts, 1);
+#endif
+    FrameInput input;
+    objects.describe(input);
+    ASSERT_EQ(input.new_objects.size(), 1u);
+    EXPECT_EQ(input.new_objects[0], object);
+    EXPECT_EQ(input.object_boxes[0], box_at({11.0, 0, 0}));
+}
+
+/// Objects of a world in which all beyond x = 20 is hidden, as they are and as the application tells them.
+class RandomWorld {
+  public:
+    explicit RandomWorld(std::uint32_t seed)
+        : random_(seed), planner_(octree_, DrawCosts{1.0, 60.0, 0.0}, options()) {}
+
+    static OcclusionOptions options() {
+        OcclusionOptions options;
+        options.costs = {{.query_ns = 300.0, .box_ns = 30.0, .pixel_ns = 1e-3, .draw_ns = 80.0},
+                         {.query_ns = 10.0, .box_ns = 90.0, .pixel_ns = 1e-3, .draw_ns = 60.0}};
+        static const std::vector<std::uint32_t> indices(20'000, 90);
+        options.object_indices = indices;
+        return options;
+    }
+
+    void change_something() {
+        const double what = random_(0, 1);
+        if (alive_.size() < 200 || (what < 0.1 && alive_.size() < 3000)) return add();
+        auto object = alive_.lower_bound(ObjectId{static_cast<std::uint32_t>(random_(0, 3000))});
+        if (object == alive_.end()) object = alive_.begin();
+        if (what < 0.19) {
+            objects_.remove(object->first);
+            alive_.erase(object);
+        } else if (what < 0.22) {
+            object->second.centre = random_.point(60.0);
+            objects_.teleport(object->first, box_at(object->second.centre));
+        } else {
+            // Nobody is told, unless it is due.
+            const glm::dvec3 step = random_.point(object->second.left / std::sqrt(3.0));
+            object->second.centre += step;
+            object->second.left = 0.0;
+        }
+    }
+
+    void frame(double time_s) {
+        objects_.begin_frame(time_s);
+        for (const ObjectId object : objects_.due()) {
+            ASSERT_TRUE(alive_.contains(object));
+            due_.push_back(object);
+        }
+        ASSERT_EQ(std::set<ObjectId>(due_.begin(), due_.end()).size(), due_.size());
+        for (const ObjectId object : due_) objects_.move(object, box_at(alive_[object].centre));
+        asleep += alive_.size() - due_.size();
+        due_.clear();
+        FrameInput input;
+        input.culling_view = {look_along({10 * std::sin(time_s), 0, 0},
+                                         {std::cos(0.3 * time_s), 0, std::sin(0.3 * time_s)}, {0, 1, 0}),
+                              perspective(1.0, 1.5, 0.1, 500.0, ClipDepth::ReversedZeroToOne),
+                              ClipDepth::ReversedZeroToOne};
+        objects_.describe(input);
+        planner_.absorb(gpu_.next_frame());
+        planner_.plan(input, plan_);
+        for (const PlannedQuery& query : plan_.queries) {
+            const auto boxes = std::span(plan_.query_boxes).subspan(query.first_box, query.box_count);
+            gpu_.ask({query.ticket,
+                      std::ranges::any_of(boxes, [](const Aabb& box) { return box.min.x < 20.0f; }), 1});
+        }
+        check(make_frustum(input.culling_view));
+        objects_.end_frame(plan_);
+        for (auto& [object, state] : alive_) state.left = kSpeed * kStep * 0.999;
+    }
+
+    static constexpr double kSpeed = 3.0, kStep = 1.0 / 30;
+    std::uint64_t asleep = 0, conditional = 0, visible = 0;
+
+  private:
+    struct State {
+        glm::dvec3 centre{0.0};
+        double left = 0.0;  ///< how far it may still go
+    };
+
+    void add() {
+        const glm::dvec3 centre = random_.point(60.0);
+        const ObjectId object =
+            objects_.add(box_at(centre), static_cast<std::uint32_t>(random_(0, 6)), kSpeed);
+        ASSERT_FALSE(alive_.contains(object));
+        alive_[object] = {centre, 0.0};
+    }
+
+    /// All that may be seen is drawn exactly once, and what hangs on a query is in its boxes.
+    void check(const Frustum& frustum) {
+        std::vector<int> drawn(objects_.slot_count());
+        std::vector<const PlannedQuery*> query(objects_.slot_count());
+        for (const ObjectId object : plan_.objects) ++drawn[index_of(object)];
+        for (const ConditionalObject& object : plan_.conditional_objects) {
+            ++drawn[index_of(object.object)];
+            query[index_of(object.object)] = &plan_.queries[object.query];
+            ++conditional;
+        }
+        for (std::size_t i = 0; i < drawn.size(); ++i) {
+            const auto object = alive_.find(ObjectId{static_cast<std::uint32_t>(i)});
+            ASSERT_LE(drawn[i], object == alive_.end() ? 0 : 1);
+            if (object == alive_.end()) continue;
+            const Aabb box = box_at(object->second.centre);
+            PlaneMask mask = frustum.mask;
+            if (classify(frustum, box, mask) == Containment::Outside) continue;
+            ASSERT_EQ(drawn[i], 1);
+            ++visible;
+            if (query[i] == nullptr) continue;
+            const auto boxes = std::span(plan_.query_boxes).subspan(query[i]->first_box, query[i]->box_count);
+            ASSERT_TRUE(std::ranges::any_of(boxes, [&](const Aabb& asked) {
+                return glm::all(glm::lessThanEqual(asked.min, box.min)) &&
+                       glm::all(glm::lessThanEqual(box.max, asked.max));
+            }));
+        }
+    }
+
+    Uniform random_;
+    RhOctree octree_ = build_octree({}, {}).value();
+    RhviewPlanner planner_;
+    MovingObjects objects_;
+    FakeGpu gpu_;
+    FramePlan plan_;
+    std::map<ObjectId, State> alive_;
+    std::vector<ObjectId> due_;
+};
+
+TEST(MovingObjects, over_a_million_moves_insertions_and_removals_what_is_visible_is_drawn_exactly_once) {
+    RandomWorld world(9);
+    constexpr int kFrames = 1000, kChanges = 1000;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        for (int change = 0; change < kChanges; ++change) world.change_something();
+        world.frame(frame * RandomWorld::kStep);
+        if (testing::Test::HasFatalFailure()) FAIL() << "frame " << frame;
+    }
+    EXPECT_GT(world.visible, 100'000u);
+    EXPECT_GT(world.conditional, 10'000u);
+    EXPECT_GT(world.asleep, 500'000u);
+}
+
+}  // namespace
+}  // namespace rhview
