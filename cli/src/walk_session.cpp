@@ -14,6 +14,7 @@
 #include "rhview/gl/item_buffer.h"
 #include "rhview/gl/timer.h"
 #include "rhview/gl/work_counter.h"
+#include "rhview/pipeline/moving_objects.h"
 #include "rhview/rhoctree/draw_list.h"
 #include "rhview/scenes/object_motion.h"
 #include "rhview/timing_model/running_update.h"
@@ -99,6 +100,7 @@ class WalkSession::Impl {
     Status set_up() {
         if (Status status = prepare(); !status) return status;
         report_.plan_hash = plan_hash({});
+        make_movers();
         if (constants_) running_.emplace(constants_->profile);
         return set_up_device();
     }
@@ -115,6 +117,8 @@ class WalkSession::Impl {
             if (record.frame_ms > query_ms) running_->observe({draws, 1e6 * (record.frame_ms - query_ms)});
         }
         report_.plan_hash = plan_hash(plan_, report_.plan_hash);
+        if (options_.visible_set)
+            place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
         if (options_.visible_set) record.visible_set_indices = visible_set_indices(frame);
         const bool checked = options_.check && frame % options_.check_every == 0;
         const bool pictured = options_.images && frame % options_.images_every == 0;
@@ -221,11 +225,39 @@ class WalkSession::Impl {
         return input;
     }
 
+    /// Where `rhview` plans, what it does not draw sleeps, and is not touched; the others want to know all.
+    void make_movers() {
+        if (scene_.dynamic_objects.empty() || options_.method != "rhview") return;
+        movers_.emplace();
+        for (std::uint32_t i = 0; i < scene_.object_count(); ++i)
+            movers_->add(placements_.boxes[i], object_groups_[i], top_speed(scene_, ObjectId{i}));
+    }
+
+    void move_objects(double time_s) {
+        if (!movers_) return place_objects(scene_, time_s, placements_);
+        movers_->begin_frame(time_s);
+        for (const ObjectId object : movers_->due()) {
+            const Aabb& bounds = scene_.meshes[index_of(scene_.object_mesh(object))].bounds;
+            const bool stands = index_of(object) >= scene_.dynamic_objects.size();
+            movers_->move(object, stands ? placements_.boxes[index_of(object)]
+                                         : transform_box(placement_at(scene_, object, time_s), bounds));
+        }
+    }
+
+    /// Only what the plan names is drawn.
+    void place_planned(double time_s) {
+        const auto place = [&](ObjectId object) {
+            placements_.scene_from_mesh[index_of(object)] = placement_at(scene_, object, time_s);
+        };
+        std::ranges::for_each(plan_.objects, place);
+        for (const ConditionalObject& object : plan_.conditional_objects) place(object.object);
+        movers_->end_frame(plan_);
+    }
+
     /// One drawing of the frame; the first of several counts, all of them are timed.
     FrameRecord draw_once(int frame) {
         const View view = view_of(frame);
-        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
-        const FrameInput input = input_for(culling_view_of(frame));
+        const double time_s = path_.time_of_frame(frame, options_.frames);
         gl::DrawOptions draw;
         draw.placements = placements_.scene_from_mesh;
         draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
@@ -235,9 +267,14 @@ class WalkSession::Impl {
         FrameRecord record;
         record.frame = frame;
         const gl::WallTimer timer;
+        move_objects(time_s);
+        FrameInput input = input_for(culling_view_of(frame));
+        if (movers_) movers_->describe(input);
+        const double moved_ms = timer.elapsed_ms();
         method_.planner->absorb(answers_);
         method_.planner->plan(input, plan_);
-        record.cull_ms = timer.elapsed_ms();
+        record.cull_ms = timer.elapsed_ms() - moved_ms;
+        if (movers_) place_planned(time_s);
         if (gpu_timer_) gpu_timer_->begin();
         work_counter_->begin();
         const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, view, draw);
@@ -329,6 +366,7 @@ class WalkSession::Impl {
     /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
     Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
         const View view = view_of(frame);
+        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
         target_->read_depth(culled_depths_);
         std::optional<gl::Picture> culled;
         if (pictured) culled.emplace(target_->read_colour());
@@ -382,7 +420,8 @@ class WalkSession::Impl {
     Aabb bounds_;
     ClipDepth clip_depth_;
     std::vector<std::uint32_t> object_groups_;
-    ObjectPlacements placements_;  ///< of the frame
+    ObjectPlacements placements_;  ///< of the frame; with `movers_`, of what was last drawn or compared
+    std::optional<MovingObjects> movers_;
     std::optional<gl::RenderTarget> target_;
     std::optional<gl::Executor> executor_;
     std::optional<gl::SceneBuffers> buffers_;

@@ -17,6 +17,10 @@ namespace {
 /// Of a distance that is computed and then rounded to float.
 constexpr double kRounding = 1e-6;
 
+/// Steps of the period: up by less than down, so that a volume is too large, and drawn for nothing, now and
+/// then and not every other time.
+constexpr double kLonger = 1.25, kShorter = 0.5;
+
 /// `box` and all that is within `distance` of it, rounded outwards.
 Aabb grown(const Aabb& box, double distance) {
     const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
@@ -135,7 +139,7 @@ void MovingObjects::describe(FrameInput& input) const {
 
 void MovingObjects::put_to_sleep(std::uint32_t object) {
     Slot& slot = slots_[object];
-    if (slot.expired) slot.period_s = std::min(2.0 * slot.period_s, settings_.greatest_period_s);
+    if (slot.expired) slot.period_s = std::min(kLonger * slot.period_s, settings_.greatest_period_s);
     slot.expired = false;
     slot.asleep = true;
     slot.listed = false;
@@ -153,7 +157,7 @@ void MovingObjects::end_frame(const FramePlan& plan) {
         seen_[i / 64] |= std::uint64_t{1} << (i % 64);
         Slot& slot = slots_[i];
         if (!slot.asleep) continue;
-        slot.period_s = std::max(0.5 * slot.period_s, settings_.least_period_s);
+        slot.period_s = std::max(kShorter * slot.period_s, settings_.least_period_s);
         wake(static_cast<std::uint32_t>(i));
     }
     std::erase_if(awake_, [&](ObjectId object) {

@@ -260,7 +260,7 @@ void NodeVisibility::decide(const FrameInput& input, const Frustum& frustum, con
     scheduler_.decide(candidates_, decided_);
     write_queries(input.object_boxes, plan);
     write_nodes();
-    write_objects(plan);
+    write_objects(input, plan);
     plan.occlusion = {candidates_.size(), decided_.query_ns, decided_.exploration_ns, decided_.saved_ns};
     frustum_ = nullptr;
 }
@@ -271,7 +271,7 @@ void NodeVisibility::append_boxes(std::uint32_t candidate, std::span<const Aabb>
     if (item >= first_object_item()) {
         const std::uint32_t region = region_of_candidate_[candidate - leaf_of_candidate_.size()];
         return plan.query_boxes.push_back(region == kNoRegion ? object_boxes[(item - first_object_item()) / 2]
-                                                              : region_boxes_[region]);
+                                                              : regions_.nodes()[region].bounds);
     }
     if (!is_node(item)) return plan.query_boxes.push_back(pieces_[item - nodes_.size()].bounds);
     for (std::uint32_t b = first_box_[item]; b < first_box_[item + 1]; ++b)

@@ -4,33 +4,19 @@
 // The part of `NodeVisibility` that is about objects.
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <glm/common.hpp>
 
 #include "rhview/pipeline/node_visibility.h"
 
 namespace rhview {
 namespace {
 
-/// Fewer objects, or fewer to a region, and regions are not worth their upkeep.
+/// Fewer objects, and regions are not worth their upkeep.
 constexpr std::size_t kFewObjects = 128;
-constexpr double kFewPerRegion = 4.0;
-
-bool is_finite(const Aabb& box) {
-    const glm::vec3 sum = glm::abs(box.min) + glm::abs(box.max);
-    return std::isfinite(sum.x + sum.y + sum.z);
-}
+/// Objects of a leaf: as many as are worth about this many questions, within limits.
+constexpr double kLeafQuestions = 16.0;
+constexpr double kMostPerLeaf = 64.0, kFewPerLeaf = 4.0;
 
 }  // namespace
-
-template <class Each>
-void NodeVisibility::for_each_object(const RegionInView& region, Each each) const {
-    for (std::uint64_t rest = region.objects; rest != 0; rest &= rest - 1) {
-        const auto bit = static_cast<std::uint32_t>(std::countr_zero(rest));
-        each(static_cast<std::uint32_t>(regions_.order()[region.first + bit]), bit);
-    }
-}
 
 /// What drawing an object takes, with its share of the calls of its group.
 double NodeVisibility::object_ns(const FrameInput& input, std::size_t object) const {
@@ -56,6 +42,8 @@ void NodeVisibility::price_objects(const FrameInput& input) {
         ++known;
     }
     mean_object_ns_ = known > 0 ? sum / static_cast<double>(known) : 0.0;
+    groups_in_use_ = std::max<std::size_t>(
+        group_sizes_.size() - static_cast<std::size_t>(std::ranges::count(group_sizes_, 0u)), 1);
 }
 
 NodeVisibility::Parts NodeVisibility::add_object(const FrameInput& input, std::uint32_t object,
@@ -74,107 +62,122 @@ NodeVisibility::Parts NodeVisibility::add_object(const FrameInput& input, std::u
     return {true, hidden, hidden ? scheduler_.p_hidden(item) : 0.0};
 }
 
-/// Takes out of `region` what can't be asked about with others, and adds it on its own. False: nothing is
-/// left.
-bool NodeVisibility::describe_region(const FrameInput& input, RegionInView& region,
-                                     OcclusionCandidate& candidate, Aabb& box) {
-    double render_ns = 0.0;
-    std::uint64_t groups = 0, alone = 0;
-    for_each_object(region, [&](std::uint32_t object, std::uint32_t bit) {
-        if (object >= options_.object_indices.size() || !is_finite(input.object_boxes[object])) {
-            alone |= std::uint64_t{1} << bit;
-            add_object(input, object, Belief::Unknown);
-            return;
-        }
-        box.grow(input.object_boxes[object]);
-        render_ns += object_ns(input, object);
-        groups |= std::uint64_t{1} << (object < input.object_groups.size() ? input.object_groups[object] % 64
-                                                                           : object % 64);
-    });
-    region.objects &= ~alone;
-    if (region.objects == 0) return false;
-    candidate = candidate_of(region_item(region.region), box);
-    candidate.render_ns = static_cast<float>(render_ns);
-    candidate.draws = static_cast<std::uint16_t>(std::popcount(groups));
-    candidate.testable = is_testable(box);
-    return true;
-}
-
-void NodeVisibility::add_region(std::uint32_t in_view, const OcclusionCandidate& candidate) {
+NodeVisibility::Parts NodeVisibility::add_region(std::uint32_t index, bool testable, Belief belief) {
+    const HierarchyNode& node = regions_.nodes()[index];
+    const std::uint32_t item = region_item(index);
+    OcclusionCandidate candidate = candidate_of(item, node.bounds);
+    candidate.render_ns = static_cast<float>(mean_object_ns_ * node.count);
+    candidate.draws = static_cast<std::uint16_t>(std::min<std::size_t>({node.count, groups_in_use_, 0xffff}));
+    candidate.testable = testable;
     candidates_.push_back(candidate);
-    region_of_candidate_.push_back(in_view);
+    region_of_candidate_.push_back(index);
+    const bool hidden = belief == Belief::Hidden && testable;
+    return {true, hidden, hidden ? scheduler_.p_hidden(item) : 0.0};
 }
 
-void NodeVisibility::visit_region(const FrameInput& input, std::uint32_t in_view) {
-    RegionInView& region = regions_in_view_[in_view];
-    OcclusionCandidate candidate;
-    if (!describe_region(input, region, candidate, region_boxes_[in_view])) return;
-    const Belief belief = scheduler_.visit(candidate.item);
+/// Regions made anew inherit what was believed of their objects.
+bool NodeVisibility::was_hidden(const HierarchyNode& node) const {
+    const auto objects = regions_.order().subspan(node.first, node.count);
+    return std::ranges::all_of(objects, [&](ObjectId object) {
+        const std::size_t id = index_of(object);
+        return id / 64 < hidden_objects_.size() && (hidden_objects_[id / 64] >> (id % 64) & 1) != 0;
+    });
+}
+
+/// As with nodes of the octree: one question while all of it is believed hidden, else its parts. Recursion is
+/// as deep as the hierarchy: 64 levels at most.
+NodeVisibility::Parts NodeVisibility::visit_region(const FrameInput& input, std::uint32_t index,
+                                                   PlaneMask mask, Belief otherwise) {
+    const HierarchyNode& node = regions_.nodes()[index];
+    ++nodes_visited_;
+    if (classify(*frustum_, node.bounds, mask) == Containment::Outside) return {};
+    if (regions_remade_) otherwise = was_hidden(node) ? Belief::Hidden : Belief::Unknown;
+    const std::uint32_t item = region_item(index);
+    const Belief belief = scheduler_.visit(item, otherwise);
+    const bool leaf = regions_.is_leaf(index);
     // Objects that nothing would be asked about one by one: never taken apart.
-    const bool whole = mean_object_ns_ < query_ns_;
-    const bool one = belief == Belief::Hidden ||
-                     (belief == Belief::Unknown && static_cast<double>(candidate.render_ns) <= grain_ns_);
-    if (whole || (one && candidate.testable)) return add_region(in_view, candidate);
-    const bool was_hidden = belief == Belief::Hidden || scheduler_.turned_visible(candidate.item);
+    const bool whole = leaf && mean_object_ns_ < query_ns_;
+    const bool one =
+        belief == Belief::Hidden || (belief == Belief::Unknown && mean_object_ns_ * node.count <= grain_ns_);
+    const bool testable = (one || whole) && is_testable(node.bounds);
+    if (whole || (one && testable)) return add_region(index, testable, belief);
+    const bool parts_hidden = belief == Belief::Hidden || scheduler_.turned_visible(item);
+    return visit_members(input, index, mask, parts_hidden ? Belief::Hidden : Belief::Unknown);
+}
+
+NodeVisibility::Parts NodeVisibility::visit_members(const FrameInput& input, std::uint32_t index,
+                                                    PlaneMask mask, Belief otherwise) {
+    const HierarchyNode& node = regions_.nodes()[index];
     const std::size_t first = candidates_.size();
     Parts parts;
-    for_each_object(region, [&](std::uint32_t object, std::uint32_t) {
-        parts.add(add_object(input, object, was_hidden ? Belief::Hidden : Belief::Unknown));
-    });
-    const bool all_hidden = parts.all_hidden && candidates_.size() > first + 1 && candidate.testable;
-    if (!all_hidden || !scheduler_.merge(candidate.item, parts.p_hidden)) return;
+    if (regions_.is_leaf(index))
+        regions_.for_each_in_view(index, *frustum_, input.object_alive, words_, [&](ObjectId object) {
+            parts.add(add_object(input, static_cast<std::uint32_t>(object), otherwise));
+        });
+    else
+        for (std::uint32_t child = index + 1; child < node.escape; child = regions_.nodes()[child].escape)
+            parts.add(visit_region(input, child, mask, otherwise));
+    const bool all_hidden = parts.any && parts.all_hidden && candidates_.size() > first + 1;
+    if (!all_hidden || !is_testable(node.bounds) || !scheduler_.merge(region_item(index), parts.p_hidden))
+        return parts;
     candidates_.resize(first);
     region_of_candidate_.resize(first - leaf_of_candidate_.size());
-    add_region(in_view, candidate);
+    return add_region(index, true, Belief::Hidden);
+}
+
+/// Whether the objects of the frame are in regions.
+bool NodeVisibility::update_regions(const FrameInput& input) {
+    regions_remade_ = false;
+    const std::size_t count = input.object_boxes.size();
+    const double per_leaf = mean_object_ns_ > 0.0 ? kLeafQuestions * query_ns_ / mean_object_ns_ : 0.0;
+    if (options_.settings.policy != OcclusionPolicy::Model || count < kFewObjects ||
+        options_.object_indices.size() < count || !(per_leaf >= kFewPerLeaf))
+        return false;
+    regions_remade_ =
+        regions_.update(input.object_boxes, static_cast<std::uint32_t>(std::min(per_leaf, kMostPerLeaf)));
+    if (regions_.nodes().size() > count) return false;  // there are no more numbers
+    if (regions_remade_)
+        for (std::uint32_t i = 0; i < regions_.nodes().size(); ++i) scheduler_.forget(region_item(i));
+    return true;
 }
 
 void NodeVisibility::add_objects(const FrameInput& input) {
     region_of_candidate_.clear();
-    regions_in_view_.clear();
     price_objects(input);
     const std::span<const Aabb> boxes = input.object_boxes;
-    const double per_region = mean_object_ns_ > 0.0 ? grain_ns_ / mean_object_ns_ : 0.0;
-    std::size_t held = 0;
-    if (options_.settings.policy == OcclusionPolicy::Model && boxes.size() >= kFewObjects &&
-        per_region >= kFewPerRegion) {
-        const auto most =
-            static_cast<std::uint32_t>(std::min<double>(per_region, ObjectRegions::kMostObjects));
-        if (regions_.update(boxes, most))
-            for (std::uint32_t r = 0; r < regions_.count(); ++r) scheduler_.forget(region_item(r));
-        regions_.cull(*frustum_, input.object_alive, regions_in_view_);
-        region_boxes_.assign(regions_in_view_.size(), {});
-        for (std::uint32_t r = 0; r < regions_in_view_.size(); ++r) visit_region(input, r);
-        held = regions_.object_count();
-    }
-    if (held == 0) {
+    if (!update_regions(input)) {
         objects_in_view_.clear();
         append_visible_objects(*frustum_, boxes, objects_in_view_, input.object_alive);
         for (const ObjectId object : objects_in_view_)
             add_object(input, static_cast<std::uint32_t>(object), Belief::Unknown);
         return;
     }
-    for (std::size_t i = held; i < boxes.size(); ++i) {
+    visit_region(input, 0, frustum_->mask, Belief::Unknown);
+    for (std::size_t i = regions_.object_count(); i < boxes.size(); ++i) {
         PlaneMask mask = frustum_->mask;
         if (input.is_alive(i) && classify(*frustum_, boxes[i], mask) != Containment::Outside)
             add_object(input, static_cast<std::uint32_t>(i), Belief::Unknown);
     }
 }
 
-void NodeVisibility::write_objects(FramePlan& plan) const {
+void NodeVisibility::write_objects(const FrameInput& input, FramePlan& plan) {
+    hidden_objects_.assign((input.object_boxes.size() + 63) / 64, 0);
     for (std::size_t c = leaf_of_candidate_.size(); c < candidates_.size(); ++c) {
         const OcclusionDecision& decision = decided_.decisions[c];
-        if (decision.action == OcclusionAction::Skip) continue;
-        const auto write = [&](std::uint32_t object, std::uint32_t) {
+        const auto write = [&](ObjectId object) {
+            const bool hidden =
+                decision.action == OcclusionAction::QueryFirst || decision.action == OcclusionAction::Skip;
+            if (hidden) hidden_objects_[index_of(object) / 64] |= std::uint64_t{1} << (index_of(object) % 64);
             if (decision.action == OcclusionAction::QueryFirst)
-                plan.conditional_objects.push_back({ObjectId{object}, decision.query});
-            else
-                plan.objects.push_back(ObjectId{object});
+                plan.conditional_objects.push_back({object, decision.query});
+            else if (!hidden)
+                plan.objects.push_back(object);
         };
         const std::uint32_t region = region_of_candidate_[c - leaf_of_candidate_.size()];
         if (region != kNoRegion)
-            for_each_object(regions_in_view_[region], write);
+            regions_.for_each_in_view(region, *frustum_, input.object_alive, words_, write);
         else
-            write((candidates_[c].item - first_object_item()) / 2, 0);
+            write(ObjectId{(candidates_[c].item - first_object_item()) / 2});
     }
 }
 

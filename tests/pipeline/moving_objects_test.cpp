@@ -94,18 +94,18 @@ TEST(MovingObjects, periods_grow_when_they_expire_unseen_and_shrink_when_the_vol
         }
         objects.end_frame({});
     }
-    EXPECT_GT(told, 8u);
-    EXPECT_LT(told, 30u);  // of 2,000 frames
+    EXPECT_GT(told, 80u);
+    EXPECT_LT(told, 150u);  // of 2,000 frames
     const auto size = [&] { return volume_of(objects, object).extent().x; };
     const float long_asleep = size();
-    EXPECT_GT(long_asleep, 1.0f + 2.0f * 6.0f);
+    EXPECT_GT(long_asleep, 1.0f + 2.0f * 0.75f);
     // Drawn: awake, and for a shorter time asleep.
     objects.end_frame(plan_of({0}));
     EXPECT_FALSE(objects.is_asleep(object));
     objects.begin_frame(time += 0.05);
     objects.move(object, kUnitBox);
     objects.end_frame({});
-    EXPECT_LT(size(), 0.7f * long_asleep);
+    EXPECT_LT(size() - 1.0f, 0.6f * (long_asleep - 1.0f));
 }
 
 TEST(MovingObjects, without_a_promise_an_object_never_sleeps) {
@@ -274,7 +274,7 @@ TEST(MovingObjects, over_a_million_moves_insertions_and_removals_what_is_visible
         if (testing::Test::HasFatalFailure()) FAIL() << "frame " << frame;
     }
     EXPECT_GT(world.visible, 100'000u);
-    EXPECT_GT(world.conditional, 10'000u);
+    EXPECT_GT(world.conditional, 3'000u);
     EXPECT_GT(world.asleep, 500'000u);
 }
 

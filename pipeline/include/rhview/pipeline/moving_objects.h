@@ -27,11 +27,11 @@
 namespace rhview {
 
 struct TemporalVolumeSettings {
-    /// Periods, seconds. Ours: a few frames at 60 Hz at first, and no more than a walker needs to cross a
-    /// court.
+    /// Periods, seconds. Ours: a few frames at 60 Hz at first, and no more than a walker needs to get past a
+    /// wall: a volume that is seen where its object is not costs more than being told where that is.
     double first_period_s = 0.25;
     double least_period_s = 0.05;
-    double greatest_period_s = 8.0;
+    double greatest_period_s = 1.0;
 };
 
 /// Deterministic; no allocation once the most objects have been there.

@@ -34,8 +34,9 @@ struct OcclusionOptions {
 /// The nodes of the octree are the scheduler's items, its pieces and the objects follow them, and between the
 /// objects regions of them.
 ///
-/// Many objects that are too cheap to be asked about one by one are asked about by region: one box, one
-/// answer for up to 64 of them. Dearer ones are asked about by region while all of it is believed hidden.
+/// Many objects, if they are not dear, are asked about by region: the nodes of a hierarchy over their boxes,
+/// one box and one answer for all that is in a node believed hidden; those too cheap to be asked about one by
+/// one by leaf at least.
 ///
 /// A node believed hidden is asked about as a whole, with the boxes of its descendants where these are tight;
 /// one believed visible is descended into, down to its leaves, and to their pieces where these are much
@@ -99,12 +100,11 @@ class NodeVisibility {
     void price_objects(const FrameInput& input);
     [[nodiscard]] double object_ns(const FrameInput& input, std::size_t object) const;
     Parts add_object(const FrameInput& input, std::uint32_t object, Belief otherwise);
-    void visit_region(const FrameInput& input, std::uint32_t in_view);
-    bool describe_region(const FrameInput& input, RegionInView& region, OcclusionCandidate& candidate,
-                         Aabb& box);
-    void add_region(std::uint32_t in_view, const OcclusionCandidate& candidate);
-    template <class Each>
-    void for_each_object(const RegionInView& region, Each each) const;
+    bool update_regions(const FrameInput& input);
+    [[nodiscard]] bool was_hidden(const HierarchyNode& node) const;
+    Parts visit_region(const FrameInput& input, std::uint32_t index, PlaneMask mask, Belief otherwise);
+    Parts visit_members(const FrameInput& input, std::uint32_t index, PlaneMask mask, Belief otherwise);
+    Parts add_region(std::uint32_t index, bool testable, Belief belief);
     [[nodiscard]] double render_ns(std::uint32_t index) const;
     [[nodiscard]] bool is_node(std::uint32_t item) const { return item < nodes_.size(); }
     [[nodiscard]] std::uint32_t first_object_item() const {
@@ -120,7 +120,7 @@ class NodeVisibility {
     void append_boxes(std::uint32_t candidate, std::span<const Aabb> object_boxes, FramePlan& plan) const;
     void write_queries(std::span<const Aabb> object_boxes, FramePlan& plan) const;
     void write_nodes();
-    void write_objects(FramePlan& plan) const;
+    void write_objects(const FrameInput& input, FramePlan& plan);
     void find_tight_boxes();
     void find_split_leaves();
 
@@ -141,10 +141,12 @@ class NodeVisibility {
     double query_ns_ = 0.0;  ///< the cheapest question
     double grain_ns_ = 0.0;
     ObjectRegions regions_;
-    std::vector<RegionInView> regions_in_view_;
-    std::vector<Aabb> region_boxes_;                  ///< of those
+    bool regions_remade_ = false;
+    std::vector<std::uint64_t> hidden_objects_;       ///< a bit each: believed hidden in the last frame
+    std::vector<std::uint64_t> words_;                ///< scratch
     std::vector<std::uint32_t> region_of_candidate_;  ///< by candidate that is an object or a region
     std::vector<std::uint32_t> group_sizes_;          ///< objects by group
+    std::size_t groups_in_use_ = 1;
     double mean_object_ns_ = 0.0;
     std::vector<ObjectId> objects_in_view_;
     std::vector<PlaneMask> containment_;  ///< by node

@@ -16,44 +16,43 @@
 
 namespace rhview {
 
-/// The objects of a region that are not outside the view.
-struct RegionInView {
-    std::uint32_t region = 0;
-    std::uint32_t first = 0;    ///< place of bit 0 in `ObjectRegions::order`
-    std::uint64_t objects = 0;  ///< a bit each
-};
-
-/// The leaves of a hierarchy over the objects' boxes, which follows them: refitted in every frame, made anew
-/// when they have parted too far or many were added.
-///
-/// Costs measured for 10,000 objects in docs/moving-objects.md.
+/// A hierarchy over the objects' boxes that follows them: refitted in every frame, made anew when its leaves
+/// have parted too far or many objects were added. Its nodes are the regions.
 class ObjectRegions {
   public:
-    static constexpr std::uint32_t kMostObjects = 64;
-
     /// Takes the boxes of a frame, by `ObjectId`. True: regions were made anew, their numbers mean others
-    /// now. `objects_per_region`, 1 to `kMostObjects`, is heeded when they are. Cost: linear, about 10 ns per
-    /// object; about 0.5 µs and memory where they are made anew.
-    bool update(std::span<const Aabb> boxes, std::uint32_t objects_per_region);
+    /// now. `per_leaf`, 1 to 64 objects, is heeded when they are. Cost: linear, about 10 ns per object; about
+    /// 0.5 µs per object, and memory, where they are made anew.
+    bool update(std::span<const Aabb> boxes, std::uint32_t per_leaf);
 
-    /// Replaces `visible` by the regions with objects that are not outside, in order. `alive`: a bit per
-    /// object, others are left out; empty: all are. Cost: as `BoxHierarchy::cull`.
-    void cull(const Frustum& frustum, std::span<const std::uint64_t> alive,
-              std::vector<RegionInView>& visible) const;
-
-    [[nodiscard]] std::size_t count() const { return region_count_; }
+    [[nodiscard]] std::span<const HierarchyNode> nodes() const { return tree_.nodes(); }
+    [[nodiscard]] bool is_leaf(std::uint32_t node) const { return nodes()[node].escape == node + 1; }
     /// Which object stands where.
     [[nodiscard]] std::span<const ObjectId> order() const { return tree_.order(); }
     /// Objects with numbers from here on were added since: they are in no region yet.
     [[nodiscard]] std::size_t object_count() const { return tree_.order().size(); }
 
+    /// Calls `each(ObjectId)` for the objects of `node` that are not outside and whose bit in `alive` is set
+    /// (empty: all are), in order. `words` is scratch.
+    template <class Each>
+    void for_each_in_view(std::uint32_t node, const Frustum& frustum, std::span<const std::uint64_t> alive,
+                          std::vector<std::uint64_t>& words, Each each) const {
+        find_in_view(node, frustum, words);
+        const std::uint32_t first = nodes()[node].first;
+        for (std::size_t word = 0; word < words.size(); ++word)
+            for (std::uint64_t rest = words[word]; rest != 0; rest &= rest - 1) {
+                const ObjectId object = order()[first + 64 * word + lowest_bit(rest)];
+                const std::size_t id = index_of(object);
+                if (alive.empty() || (alive[id / 64] >> (id % 64) & 1) != 0) each(object);
+            }
+    }
+
   private:
     [[nodiscard]] double leaf_area() const;
+    void find_in_view(std::uint32_t node, const Frustum& frustum, std::vector<std::uint64_t>& words) const;
+    [[nodiscard]] static std::size_t lowest_bit(std::uint64_t word);
 
     BoxHierarchy tree_;
-    std::vector<std::uint32_t> region_of_node_;
-    std::size_t region_count_ = 0;
-    std::uint32_t objects_per_region_ = 0;
     double area_when_made_ = 0.0;
     std::uint32_t age_ = 0;  ///< frames since
 };
