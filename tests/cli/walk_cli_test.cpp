@@ -34,7 +34,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
                          [](const auto& test) {
                              std::string name = test.param;
                              std::ranges::replace_if(
-                                 name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
+                                 name,
+                                 [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
                                  '_');
                              return name;
                          });
@@ -71,7 +72,9 @@ TEST_P(DrawsAndAsks, in_turns_and_reports_queries_and_waits) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, DrawsAndAsks, testing::Values("nested-grid", "chc", "chc++"),
                          [](const auto& test) {
-                             return test.index == 0 ? "nested_grid" : test.index == 1 ? "chc" : "chc_plus_plus";
+                             return test.index == 0   ? "nested_grid"
+                                    : test.index == 1 ? "chc"
+                                                      : "chc_plus_plus";
                          });
 
 TEST_F(Walk, chc_plus_plus_culls_the_hierarchy_that_is_asked_for) {
@@ -118,6 +121,15 @@ TEST_F(Walk, latent_mode_tells_what_it_misses_and_is_no_failed_check) {
         walk_json("city:blocks=6 --frames 12 --warmup 4 --size 200x120 --check --mode latent" + kPrices);
     EXPECT_EQ(walk["mode"], "latent");
     EXPECT_TRUE(walk["summary"]["missing_pixels"]["total"].is_number());
+    // Whoever lacked a pixel in some frame is told by the frames for which it did.
+    double late_frames = 0.0;
+    for (const nlohmann::json& frame : walk["per_frame"]) {
+        EXPECT_EQ(frame["late_items"] > 0, frame["missing_pixels"] > 0);
+        late_frames += frame["late_items"].get<double>();
+    }
+    EXPECT_GT(late_frames, 0.0);
+    const nlohmann::json& reveals = walk["summary"]["reveal_frames"];
+    EXPECT_NEAR(reveals["mean"].get<double>() * reveals["items"].get<double>(), late_frames, 1e-6);
 }
 
 TEST_F(Walk, without_a_price_of_a_query_nothing_is_asked) {
