@@ -16,8 +16,9 @@ namespace rhview::cli {
 namespace {
 
 /// Measured, see docs/rivals.md.
-constexpr std::uint32_t kHierarchyLeaf = 4096;
-constexpr std::string_view kDefaultHierarchy = "octree";
+constexpr std::string_view kDefaultHierarchy = "bvh";
+constexpr std::uint32_t kObjectLeaf = 1024;
+constexpr std::uint32_t kOctreeLeaf = 4096;
 
 struct Setting {
     std::string_view key;
@@ -115,7 +116,6 @@ Result<RivalOptions> parse_rival(std::string_view hierarchy, std::string_view tu
 Result<PreparedRival> prepare_rival(std::string_view method, const Scene& scene, const RivalOptions& options,
                                     const BakedOctree* baked) {
     PreparedRival prepared;
-    prepared.leaf_triangles = options.leaf_triangles.value_or(kHierarchyLeaf);
     CullTree tree;
     if (method == "nested-grid") {
         NestedGridOptions grid = options.grid;
@@ -125,10 +125,12 @@ Result<PreparedRival> prepare_rival(std::string_view method, const Scene& scene,
         use(make_nested_grid(scene.triangle_batches(), grid), prepared, tree);
     } else if ((options.hierarchy == "auto" ? kDefaultHierarchy : options.hierarchy) == "bvh") {
         prepared.hierarchy = "bvh";
+        prepared.leaf_triangles = options.leaf_triangles.value_or(kObjectLeaf);
         use(make_object_tree(static_objects(scene), scene.triangle_batches(), prepared.leaf_triangles),
             prepared, tree);
-    } else if (Status status = build_octree_tree(scene, baked, prepared, tree); !status) {
-        return status.error();
+    } else {
+        prepared.leaf_triangles = options.leaf_triangles.value_or(kOctreeLeaf);
+        if (Status status = build_octree_tree(scene, baked, prepared, tree); !status) return status.error();
     }
     prepared.nodes = tree.nodes().size();
     prepared.leaves = tree.leaf_count();
