@@ -72,6 +72,7 @@ class ChcPlusPlus::Frame {
     void begin_frame(const FrameInput& input) {
         ++number_;
         members_.clear();
+        groups_of_objects_ = input.object_groups;
         tree_.set_objects(input.object_boxes);
         const bool other_nodes = states_.size() != tree_.nodes().size();
         while (!leaves_.empty() && (other_nodes || recorder_.has_answer(leaves_.front().asked)))
@@ -155,7 +156,7 @@ class ChcPlusPlus::Frame {
     }
 
     void draw_queued() {
-        render_queue_.flush(recorder_, [&](std::uint32_t leaf, const Asked& asked) {
+        render_queue_.flush(recorder_, groups_of_objects_, [&](std::uint32_t leaf, const Asked& asked) {
             leaves_.push({asked, leaf});
         });
     }
@@ -268,14 +269,15 @@ class ChcPlusPlus::Frame {
     FrontToBack queue_;
     Recorder recorder_;
     RenderQueue render_queue_;
-    QueryLine<Waiting> line_;                  ///< of hidden nodes, this frame's
-    QueryLine<WaitingLeaf> leaves_;            ///< of visible leaves
-    std::vector<State> states_;                ///< by node
-    std::vector<FrontToBack::Entry> hidden_;   ///< the i-queue
-    QueryLine<std::uint32_t> asked_later_;     ///< the v-queue
-    std::vector<std::uint32_t> later_;         ///< of it, about to be sent
-    std::vector<FrontToBack::Entry> members_;  ///< of this frame's queries
-    std::vector<Waiting> groups_;              ///< about to be sent
+    std::span<const std::uint32_t> groups_of_objects_;  ///< of the frame
+    QueryLine<Waiting> line_;                           ///< of hidden nodes, this frame's
+    QueryLine<WaitingLeaf> leaves_;                     ///< of visible leaves
+    std::vector<State> states_;                         ///< by node
+    std::vector<FrontToBack::Entry> hidden_;            ///< the i-queue
+    QueryLine<std::uint32_t> asked_later_;              ///< the v-queue
+    std::vector<std::uint32_t> later_;                  ///< of it, about to be sent
+    std::vector<FrontToBack::Entry> members_;           ///< of this frame's queries
+    std::vector<Waiting> groups_;                       ///< about to be sent
     std::vector<Asked> asked_;
     std::uint32_t number_ = 1;  ///< of the frame; the first is 2, so that 0 is never the one before
 };

@@ -25,9 +25,15 @@ void RenderQueue::add_asked(std::uint32_t leaf, std::span<const DrawRange> range
     for (const ObjectId object : objects) asked_objects_.push_back({object, leaf});
 }
 
-void RenderQueue::sort() {
+void RenderQueue::sort(std::span<const std::uint32_t> groups) {
     std::ranges::sort(ranges_, [](const Queued& a, const Queued& b) {
         return a.range.batch != b.range.batch ? a.range.batch < b.range.batch : a.number < b.number;
+    });
+    const auto group_of = [&](ObjectId object) {
+        return index_of(object) < groups.size() ? groups[index_of(object)] : 0;
+    };
+    std::ranges::sort(objects_, [&](ObjectId a, ObjectId b) {
+        return group_of(a) != group_of(b) ? group_of(a) < group_of(b) : a < b;
     });
     sorted_.clear();
     for (const Queued& queued : ranges_) sorted_.push_back(queued.range);

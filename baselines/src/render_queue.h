@@ -17,10 +17,11 @@ class RenderQueue {
     void add(std::span<const DrawRange> ranges, std::span<const ObjectId> objects);
     /// A leaf that is one draw, which is asked about with it.
     void add_asked(std::uint32_t leaf, std::span<const DrawRange> ranges, std::span<const ObjectId> objects);
-    /// Draws and empties it; calls `asked(leaf, query)` for each leaf that was asked about.
+    /// Draws and empties it, objects by `groups` (`FrameInput::object_groups`); calls `asked(leaf, query)`
+    /// for each leaf that was asked about.
     template <class Callback>
-    void flush(Recorder& recorder, Callback asked) {
-        sort();
+    void flush(Recorder& recorder, std::span<const std::uint32_t> groups, Callback asked) {
+        sort(groups);
         for (std::size_t first = 0; first < ranges_.size();) {
             const std::size_t end = end_of_run(first);
             const std::span<const DrawRange> run = std::span(sorted_).subspan(first, end - first);
@@ -49,7 +50,7 @@ class RenderQueue {
     };
 
     void add_range(const DrawRange& range, std::uint32_t leaf);
-    void sort();
+    void sort(std::span<const std::uint32_t> groups);
     /// Ranges that go to the device with one call: until one that is asked about, or that one alone.
     [[nodiscard]] std::size_t end_of_run(std::size_t first) const;
     void clear();

@@ -26,7 +26,7 @@ class ViewFromAbove {
     gl::Picture draw(const FramePlan& everything, const FramePlan& plan, std::span<const QueryAnswer> answers,
                      std::span<const DrawRange> to_show, const std::function<Aabb(std::uint32_t)>& bounds_of,
                      const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
-                     gl::Executor& executor);
+                     std::span<const glm::dmat4> placements, gl::Executor& executor);
 
   private:
     ViewFromAbove(gl::RenderTarget target, gl::LineDrawer lines);

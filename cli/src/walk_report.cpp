@@ -443,7 +443,7 @@ std::string to_table(const WalkReport& report) {
         row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
     table +=
         fmt::format("\n  everything: {} draw calls, {} indices; plan hash {:016x}\n",
-                    report.scene.batches + report.scene.dynamic_objects + report.scene.static_instances,
+                    report.scene.batches + report.scene.object_groups,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
     table += timing_line(report);
     if (report.has_occlusion())

@@ -58,6 +58,7 @@ struct WalkReport {
         std::uint64_t batches = 0;
         std::uint64_t static_instances = 0;
         std::uint64_t instance_triangles = 0;
+        std::uint64_t object_groups = 0;  ///< of objects that can share a call
     } scene;
     struct {
         std::string renderer;

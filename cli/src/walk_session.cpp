@@ -16,6 +16,7 @@
 #include "rhview/gl/timer.h"
 #include "rhview/gl/work_counter.h"
 #include "rhview/rhoctree/draw_list.h"
+#include "rhview/scenes/object_motion.h"
 #include "rhview/timing_model/running_update.h"
 #include "statistics.h"
 
@@ -29,6 +30,11 @@ Work without_queries(Work work) {
     return work;
 }
 
+std::uint64_t distinct(std::vector<std::uint32_t> numbers) {
+    std::ranges::sort(numbers);
+    return static_cast<std::uint64_t>(std::ranges::unique(numbers).begin() - numbers.begin());
+}
+
 WalkReport describe(const WalkOptions& options, const WalkGround& ground, const PreparedMethod& method) {
     const Scene& scene = ground.loaded.scene;
     const gl::DeviceInfo& device = ground.context.device();
@@ -40,7 +46,8 @@ WalkReport describe(const WalkOptions& options, const WalkGround& ground, const 
                     scene.materials.size(),
                     scene.batches.size(),
                     scene.static_instances.size(),
-                    scene.instance_triangles()};
+                    scene.instance_triangles(),
+                    distinct(object_groups(scene))};
     report.device = {device.renderer, device.version, "wall"};
     report.build.ms = method.build_ms;
     if (method.octree != nullptr) {
@@ -93,7 +100,9 @@ class WalkSession::Impl {
           bounds_(scene_.bounds()),
           clip_depth_(ground.context.device().clip_control ? ClipDepth::ReversedZeroToOne
                                                            : ClipDepth::NegativeOneToOne),
-          object_boxes_(scene_.object_boxes()) {}
+          object_groups_(object_groups(scene_)) {
+        place_objects(scene_, 0.0, placements_);
+    }
 
     Status set_up() {
         if (Status status = prepare(); !status) return status;
@@ -254,12 +263,23 @@ class WalkSession::Impl {
         return record;
     }
 
+    [[nodiscard]] FrameInput input_for(const View& view) const {
+        FrameInput input;
+        input.culling_view = view;
+        input.scene_origin = scene_.origin;
+        input.object_boxes = placements_.boxes;
+        input.object_groups = object_groups_;
+        input.viewport_pixels = {target_->width(), target_->height()};
+        return input;
+    }
+
     /// One drawing of the frame; the first of several counts, all of them are timed.
     FrameRecord draw_once(int frame) {
         const View view = view_of(frame);
-        const FrameInput input{
-            culling_view_of(frame), scene_.origin, object_boxes_, {target_->width(), target_->height()}};
+        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        const FrameInput input = input_for(culling_view_of(frame));
         gl::DrawOptions draw;
+        draw.placements = placements_.scene_from_mesh;
         draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
         draw.counter = &*work_counter_;
         target_->begin(clip_depth_, kSky);
@@ -299,7 +319,8 @@ class WalkSession::Impl {
 
     /// What hung on queries enters the work as far as the device drew it.
     void count_occlusion(const gl::FrameCounters& counters, FrameRecord& record) const {
-        const gl::ExecutedDraws executed = gl::count_executed(plan_, *buffers_, answers_);
+        const gl::ExecutedDraws executed =
+            gl::count_executed(plan_, *buffers_, answers_, placements_.scene_from_mesh);
         OcclusionRecord& o = record.occlusion.emplace();
         o.candidates = plan_.occlusion->candidates;
         o.boxes = counters.query_boxes;
@@ -352,7 +373,8 @@ class WalkSession::Impl {
 
     [[nodiscard]] std::uint64_t visible_set_indices(int frame) {
         std::uint64_t indices = 0;
-        for (const std::uint32_t leaf : items_->visible_items(leaves_, *buffers_, view_of(frame)))
+        for (const std::uint32_t leaf :
+             items_->visible_items(leaves_, *buffers_, view_of(frame), placements_.scene_from_mesh))
             indices += 3 * std::uint64_t{method_.octree->node(NodeId{leaf}).triangle_count};
         return indices;
     }
@@ -363,17 +385,18 @@ class WalkSession::Impl {
         target_->read_depth(culled_depths_);
         std::optional<gl::Picture> culled;
         if (pictured) culled.emplace(target_->read_colour());
-        reference_->plan({.culling_view = view, .scene_origin = scene_.origin, .object_boxes = object_boxes_},
-                         everything_);
+        reference_->plan(input_for(view), everything_);
+        gl::DrawOptions draw;
+        draw.placements = placements_.scene_from_mesh;
         target_->begin(clip_depth_, kSky);
-        executor_->draw(everything_, *buffers_, view);
+        executor_->draw(everything_, *buffers_, view, draw);
         target_->read_depth(reference_depths_);
         const std::size_t missing = gl::count_missing_pixels(culled_depths_, reference_depths_);
         if (checked) record.missing_pixels = missing;
         if (checked && delays_)
             record.late_items = delays_->add_frame(
                 items_->item_pixels(leaves_, static_cast<std::uint32_t>(method_.octree->nodes().size()),
-                                    *buffers_, view),
+                                    *buffers_, view, placements_.scene_from_mesh),
                 culled_depths_, reference_depths_);
         if (!pictured) return success();
 
@@ -387,7 +410,7 @@ class WalkSession::Impl {
         gl::Picture above = above_->draw(
             everything_, plan_, answers_, to_show,
             [&](std::uint32_t chosen) { return method_.bounds_of(chosen); }, *buffers_, bounds_, culling_view,
-            *executor_);
+            placements_.scene_from_mesh, *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
                                   record.work.draw_calls, record.work.indices * 1e-6));
         reference.label("everything drawn");
@@ -413,7 +436,8 @@ class WalkSession::Impl {
     std::unique_ptr<FramePlanner> reference_;
     Aabb bounds_;
     ClipDepth clip_depth_;
-    std::vector<Aabb> object_boxes_;
+    std::vector<std::uint32_t> object_groups_;
+    ObjectPlacements placements_;  ///< of the frame
     std::optional<gl::RenderTarget> target_;
     std::optional<gl::Executor> executor_;
     std::optional<gl::SteppedExecutor> stepped_;  ///< of a method that draws and asks in turns

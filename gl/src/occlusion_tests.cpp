@@ -12,16 +12,6 @@
 #include "rhview/gl/query_boxes.h"
 
 namespace rhview::gl {
-namespace {
-
-double largest_growth(const FramePlan& plan, const SceneBuffers& scene) {
-    double growth = 1.0;
-    for (const ConditionalObject& object : plan.conditional_objects)
-        growth = std::max(growth, rounding_growth(scene.objects()[index_of(object.object)].scene_from_mesh));
-    return growth;
-}
-
-}  // namespace
 
 OcclusionTests::OcclusionTests(BoxDrawer drawer, QueryPool pool)
     : drawer_(std::move(drawer)), pool_(std::move(pool)) {}
@@ -46,15 +36,15 @@ void OcclusionTests::begin_frame() {
 }
 
 void OcclusionTests::ask(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                         FrameCounters& counters) {
+                         const ObjectDrawer& objects, FrameCounters& counters) {
     counters.queries += plan.queries.size();
     const BoxWidener widener(view, scene.origin(), bound_raster_precision(subpixel_bits_),
-                             largest_growth(plan, scene));
+                             objects.largest_growth());
     place_boxes(plan, widener);
     if (!boxes_.empty()) drawer_.upload(boxes_);
     counters.query_boxes += boxes_.size();
     if (first_marking_ != 0) ask_hardware(plan, widener, counters);
-    collect_draws(plan, scene);
+    collect_draws(plan, objects);
     if (!slots_.empty()) ask_box_pass(widener, counters);
 }
 
@@ -99,17 +89,16 @@ void OcclusionTests::ask_hardware(const FramePlan& plan, const BoxWidener& widen
     }
 }
 
-void OcclusionTests::collect_draws(const FramePlan& plan, const SceneBuffers& scene) {
+void OcclusionTests::collect_draws(const FramePlan& plan, const ObjectDrawer& objects) {
     draws_.clear();
     for (const ConditionalRange& conditional : plan.conditional)
         if (is_indirect(conditional.query))
             draws_.push_back({conditional.range.first_index, conditional.range.index_count,
                               fates_[conditional.query].slot});
-    for (const ConditionalObject& conditional : plan.conditional_objects)
-        if (is_indirect(conditional.query)) {
-            const ObjectInstance& object = scene.objects()[index_of(conditional.object)];
-            draws_.push_back({object.first_index, object.index_count, fates_[conditional.query].slot});
-        }
+    for (const ObjectRun& run : objects.conditional())
+        if (is_indirect(run.query))
+            draws_.push_back({run.range.first_index, run.range.index_count, fates_[run.query].slot,
+                              run.instances, run.first_instance});
 }
 
 void OcclusionTests::ask_box_pass(const BoxWidener& widener, FrameCounters& counters) {

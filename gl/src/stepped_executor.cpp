@@ -6,11 +6,11 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <optional>
 
 #include "box_drawer.h"
+#include "object_drawer.h"
 #include "raster_precision.h"
 #include "rhview/base/assert.h"
 #include "state_guard.h"
@@ -35,17 +35,20 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_;
 };
 
-double largest_growth(const SceneBuffers& scene) {
+/// Of all objects: any of them may be asked about.
+double largest_growth(const SceneBuffers& scene, std::span<const glm::dmat4> placements) {
     double growth = 1.0;
-    for (const ObjectInstance& object : scene.objects())
-        growth = std::max(growth, rounding_growth(object.scene_from_mesh));
+    for (std::size_t i = 0; i < scene.objects().size(); ++i)
+        growth = std::max(
+            growth,
+            rounding_growth(i < placements.size() ? placements[i] : scene.objects()[i].scene_from_mesh));
     return growth;
 }
 
 }  // namespace
 
 struct SteppedExecutor::State {
-    enum class Drawing { Geometry, Boxes };
+    enum class Drawing { Nothing, Static, Objects, Boxes };
     static constexpr std::uint32_t kNoBatch = 0xffffffffu;
 
     State(Executor& used, BoxDrawer box_drawer) : executor(used), drawer(std::move(box_drawer)) {}
@@ -66,25 +69,25 @@ struct SteppedExecutor::State {
         return QueryHandle{slot};
     }
 
-    void use_geometry() {
-        if (drawing == Drawing::Geometry) return;
-        drawing = Drawing::Geometry;
-        glUseProgram(executor.program_.name());
-        glDepthMask(GL_TRUE);
-        query_guard->put_back_raster_state();
+    /// Whether state of another kind of draw was set.
+    bool change_to(Drawing next) {
+        if (drawing == next) return false;
+        if (drawing == Drawing::Boxes) {
+            glDepthMask(GL_TRUE);
+            query_guard->put_back_raster_state();
+        }
+        drawing = next;
         batch = kNoBatch;
+        return true;
     }
 
     void use_boxes() {
-        if (drawing == Drawing::Boxes) return;
-        drawing = Drawing::Boxes;
-        drawer.begin(*widener, BoxDrawer::Effect::None);
+        if (change_to(Drawing::Boxes)) drawer.begin(*widener, BoxDrawer::Effect::None);
     }
 
     void draw_ranges(std::span<const DrawRange> ranges) {
         if (ranges.empty()) return;
-        if (!static_transform) executor.set_transform(view, scene->origin(), glm::dmat4(1.0));
-        static_transform = true;
+        if (change_to(Drawing::Static)) executor.begin_static(view, scene->origin(), options);
         for (std::size_t first = 0; first < ranges.size();) {
             std::size_t end = first + 1;
             while (end < ranges.size() && ranges[end].batch == ranges[first].batch) ++end;
@@ -102,17 +105,19 @@ struct SteppedExecutor::State {
     }
 
     void draw_objects(std::span<const ObjectId> ids) {
-        for (const ObjectId id : ids) {
-            const ObjectInstance& object = scene->objects()[index_of(id)];
-            Executor::set_state(object.state);
+        if (ids.empty()) return;
+        ObjectDrawer& objects = *executor.objects_;
+        placed.objects.assign(ids.begin(), ids.end());
+        objects.place(placed, *scene, view, options.placements);
+        if (change_to(Drawing::Objects)) objects.begin(options.colour);
+        for (const ObjectRun& run : objects.at_once()) {
+            objects.set_state(run);
+            ObjectDrawer::draw(run);
             ++counters.material_changes;
-            executor.set_transform(view, scene->origin(), object.scene_from_mesh);
-            const std::array range{DrawRange{BatchId{0}, object.first_index, object.index_count}};
-            counters.draw_calls += executor.draw_ranges(range, Submission::Plain);
+            ++counters.draw_calls;
             ++counters.sub_draws;
-            counters.indices += object.index_count;
-            static_transform = false;
-            batch = kNoBatch;
+            counters.instances += run.instances;
+            counters.indices += run.indices();
         }
     }
 
@@ -130,9 +135,9 @@ struct SteppedExecutor::State {
     std::optional<StateGuard> guard;
     std::optional<QueryStateGuard> query_guard;
     std::optional<BoxWidener> widener;
-    Drawing drawing = Drawing::Geometry;
+    Drawing drawing = Drawing::Nothing;
     std::uint32_t batch = kNoBatch;  ///< whose state is set
-    bool static_transform = false;
+    FramePlan placed;                ///< the objects of one call
     FrameCounters counters;
     double device_ms = 0.0;
     std::vector<BoxInstance> boxes;
@@ -163,11 +168,10 @@ void SteppedExecutor::begin(const SceneBuffers& scene, const View& view, const D
     s.counters = {};
     s.guard.emplace(s.executor.clip_control_);
     s.query_guard.emplace();
-    s.widener.emplace(view, scene.origin(), bound_raster_precision(s.subpixels), largest_growth(scene));
-    s.executor.begin(view, options);
-    s.drawing = State::Drawing::Geometry;
-    s.batch = State::kNoBatch;
-    s.static_transform = false;
+    s.widener.emplace(view, scene.origin(), bound_raster_precision(s.subpixels),
+                      largest_growth(scene, options.placements));
+    s.executor.begin(view);
+    s.drawing = State::Drawing::Nothing;
 }
 
 FrameCounters SteppedExecutor::end() {
@@ -180,7 +184,6 @@ FrameCounters SteppedExecutor::end() {
 
 void SteppedExecutor::draw(std::span<const DrawRange> ranges, std::span<const ObjectId> objects) {
     const Stopwatch watch(state_->device_ms);
-    state_->use_geometry();
     state_->draw_ranges(ranges);
     state_->draw_objects(objects);
 }
@@ -188,7 +191,6 @@ void SteppedExecutor::draw(std::span<const DrawRange> ranges, std::span<const Ob
 QueryHandle SteppedExecutor::draw_and_ask(std::span<const DrawRange> ranges,
                                           std::span<const ObjectId> objects) {
     const Stopwatch watch(state_->device_ms);
-    state_->use_geometry();
     const QueryHandle handle = state_->begin_query();
     state_->draw_ranges(ranges);
     state_->draw_objects(objects);
