@@ -83,9 +83,9 @@ Result<ViewFromAbove> ViewFromAbove::create(int width, int height) {
 
 gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& plan,
                                 std::span<const QueryAnswer> answers, std::span<const DrawRange> to_show,
-                                const FramePlanner& planner, const gl::SceneBuffers& buffers,
-                                const Aabb& bounds, const View& view, std::span<const glm::dmat4> placements,
-                                gl::Executor& executor) {
+                                const std::function<Aabb(std::uint32_t)>& bounds_of,
+                                const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
+                                std::span<const glm::dmat4> placements, gl::Executor& executor) {
     const double aspect = static_cast<double>(target_.width()) / target_.height();
     const View above = view_from_above(bounds, buffers.origin(), aspect, view);
     target_.begin(view.clip_depth, kPaper);
@@ -126,8 +126,7 @@ gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& pl
                   {gl::Submission::Plain, call_colour(0, false), nullptr, placements});
     gl::Lines boxes;
     if (plan.queries.empty())
-        for (const std::uint32_t chosen : plan.chosen)
-            boxes.add_box(planner.bounds_of(chosen), buffers.origin());
+        for (const std::uint32_t chosen : plan.chosen) boxes.add_box(bounds_of(chosen), buffers.origin());
     lines_.draw(boxes, above, kBoxes);
     lines_.draw(boxes_answered(plan, answers, false, buffers.origin()), above, kHidden);
     lines_.draw(boxes_answered(plan, answers, true, buffers.origin()), above, kSeen);

@@ -12,6 +12,7 @@
 #include "occlusion_choice.h"
 #include "reveal_delays.h"
 #include "rhview/gl/item_buffer.h"
+#include "rhview/gl/stepped_executor.h"
 #include "rhview/gl/timer.h"
 #include "rhview/gl/work_counter.h"
 #include "rhview/pipeline/moving_objects.h"
@@ -55,6 +56,13 @@ WalkReport describe(const WalkOptions& options, const WalkGround& ground, const 
         report.build.leaves = method.octree->leaf_count();
         report.build.replicas = method.octree->replicas().size();
         report.build.replica_bytes = method.octree->replica_bytes();
+        report.build.hierarchy = "octree";
+    }
+    if (method.rival) {
+        report.build.nodes = method.rival->nodes;
+        report.build.leaves = method.rival->leaves;
+        report.build.hierarchy = method.rival->hierarchy;
+        report.in_steps = true;
     }
     report.build.instancing = scene.instancing;
     report.build.index_bytes = scene.index_bytes();
@@ -109,7 +117,7 @@ class WalkSession::Impl {
 
     Status walk(int frame) {
         FrameRecord record = draw_frame(frame);
-        if (running_) {
+        if (running_ && record.predicted_ms) {
             // Queries are priced apart, by what they asked about.
             const double query_ms = record.occlusion ? record.occlusion->query_ms : 0.0;
             const Work draws = without_queries(record.work);
@@ -131,8 +139,8 @@ class WalkSession::Impl {
 
     Status finish() {
         if (delays_) report_.reveal_frames = delays_->frames();
-        report_.blocking_reads = executor_->answer_counters().blocking_reads;
-        report_.lost_queries = executor_->answer_counters().lost;
+        report_.blocking_reads = answer_counters().blocking_reads;
+        report_.lost_queries = answer_counters().lost;
         const std::string error = gl::take_error();
         return error.empty() ? success() : Status(Error{"OpenGL reported: " + error});
     }
@@ -142,7 +150,10 @@ class WalkSession::Impl {
   private:
     /// The method, ready to plan, and what the report says of it.
     Status prepare() {
-        MethodOptions method_options{options_.leaf, options_.replica_budget, {}, {}};
+        Result<RivalOptions> rival = parse_rival(options_.hierarchy, options_.tune);
+        if (!rival) return rival.error();
+        MethodOptions method_options{
+            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value()};
         if (constants_)
             method_options.costs = draw_costs(constants_->profile, options_.submission == "multi");
         std::string why_no_occlusion;
@@ -182,6 +193,11 @@ class WalkSession::Impl {
         Result<gl::Executor> executor = gl::Executor::create();
         if (!executor) return executor.error();
         executor_.emplace(std::move(executor).value());
+        if (method_.rival) {
+            Result<gl::SteppedExecutor> stepped = gl::SteppedExecutor::create(*executor_);
+            if (!stepped) return stepped.error();
+            stepped_.emplace(std::move(stepped).value());
+        }
         Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(scene_, method_.static_indices());
         if (!buffers) return buffers.error();
         buffers_.emplace(std::move(buffers).value());
@@ -213,6 +229,42 @@ class WalkSession::Impl {
     [[nodiscard]] View view_of(int frame) const {
         const double aspect = static_cast<double>(target_->width()) / target_->height();
         return path_.view_of_frame(frame, options_.frames, aspect, clip_depth_);
+    }
+
+    [[nodiscard]] gl::AnswerCounters answer_counters() const {
+        return stepped_ ? stepped_->answer_counters() : executor_->answer_counters();
+    }
+
+    /// The same of a method that draws and asks in turns. What only the device counts is not counted:
+    /// OpenGL knows one occlusion query at a time.
+    FrameRecord draw_in_steps(int frame, const FrameInput& input, const gl::DrawOptions& draw) {
+        FrameRecord record;
+        record.frame = frame;
+        const std::uint64_t waits = stepped_->answer_counters().blocking_reads;
+        const gl::WallTimer timer;
+        if (gpu_timer_) gpu_timer_->begin();
+        stepped_->begin(*buffers_, view_of(frame), draw);
+        const gl::WallTimer method_timer;
+        const double begun_ms = stepped_->device_ms();
+        method_.rival->method->draw(input, *stepped_, drawn_);
+        record.cull_ms = std::max(method_timer.elapsed_ms() - (stepped_->device_ms() - begun_ms), 0.0);
+        const gl::FrameCounters counters = stepped_->end();
+        if (gpu_timer_) gpu_timer_->end();
+        gl::finish();
+        record.frame_ms = timer.elapsed_ms();
+        if (gpu_timer_) record.gpu_ms = gpu_timer_->read_ms();
+        record.work = gl::work_of(counters);
+        record.work.queries = static_cast<double>(counters.queries);
+        std::swap(plan_, drawn_.plan);
+        answers_.swap(drawn_.answers);
+        record.nodes_visited = plan_.nodes_visited;
+        for (const ObjectId id : plan_.objects) count_object(id, record);
+        OcclusionRecord& o = record.occlusion.emplace();
+        o.candidates = plan_.nodes_visited;
+        o.boxes = counters.query_boxes;
+        o.hidden = drawn_.hidden_queries;
+        o.waits = stepped_->answer_counters().blocking_reads - waits;
+        return record;
     }
 
     [[nodiscard]] FrameInput input_for(const View& view) const {
@@ -264,6 +316,7 @@ class WalkSession::Impl {
         draw.counter = &*work_counter_;
         target_->begin(clip_depth_, kSky);
         gl::finish();
+        if (stepped_) return draw_in_steps(frame, input, draw);
         FrameRecord record;
         record.frame = frame;
         const gl::WallTimer timer;
@@ -392,8 +445,10 @@ class WalkSession::Impl {
         if (options_.method == "rhview")
             append_ranges_to_show(*method_.octree, make_frustum(culling_view, scene_.origin),
                                   make_viewpoint(culling_view, scene_.origin), to_show);
-        gl::Picture above = above_->draw(everything_, plan_, answers_, to_show, *method_.planner, *buffers_,
-                                         bounds_, culling_view, placements_.scene_from_mesh, *executor_);
+        gl::Picture above = above_->draw(
+            everything_, plan_, answers_, to_show,
+            [&](std::uint32_t chosen) { return method_.bounds_of(chosen); }, *buffers_, bounds_, culling_view,
+            placements_.scene_from_mesh, *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
                                   record.work.draw_calls, record.work.indices * 1e-6));
         reference.label("everything drawn");
@@ -424,6 +479,8 @@ class WalkSession::Impl {
     std::optional<MovingObjects> movers_;
     std::optional<gl::RenderTarget> target_;
     std::optional<gl::Executor> executor_;
+    std::optional<gl::SteppedExecutor> stepped_;  ///< of a method that draws and asks in turns
+    DrawnFrame drawn_;                            ///< by it
     std::optional<gl::SceneBuffers> buffers_;
     std::optional<gl::GpuTimer> gpu_timer_;
     std::optional<gl::WorkCounter> work_counter_;

@@ -6,37 +6,12 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "raster_precision.h"
 #include "rhview/base/assert.h"
 #include "rhview/gl/query_boxes.h"
 
 namespace rhview::gl {
-namespace {
-
-/// Step of the bound framebuffer's depth; 0 if it is a floating-point one, or there is none.
-double depth_step() {
-    GLint framebuffer = 0, type = GL_NONE, bits = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
-    const GLenum attachment = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
-    const auto read = [&](GLenum name, GLint& value) {
-        glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, name, &value);
-    };
-    read(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, type);
-    if (type == GL_NONE) return 0.0;
-    read(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, type);
-    if (type == GL_FLOAT) return 0.0;
-    read(GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE, bits);
-    return std::exp2(-bits);
-}
-
-RasterPrecision raster_precision(int subpixel_bits) {
-    GLint viewport[4] = {};
-    glGetIntegerv(GL_VIEWPORT, viewport);
-    return {std::max(viewport[2], 1), std::max(viewport[3], 1), subpixel_bits, depth_step()};
-}
-
-}  // namespace
 
 OcclusionTests::OcclusionTests(BoxDrawer drawer, QueryPool pool)
     : drawer_(std::move(drawer)), pool_(std::move(pool)) {}
@@ -51,9 +26,7 @@ Result<OcclusionTests> OcclusionTests::create(std::uint32_t lost_after_frames) {
         if (!box_pass) return box_pass.error();
         tests.box_pass_ = std::move(box_pass).value();
     }
-    GLint bits = 0;
-    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-    tests.subpixel_bits_ = std::max(bits, 1);
+    tests.subpixel_bits_ = subpixel_bits();
     return tests;
 }
 
@@ -65,7 +38,7 @@ void OcclusionTests::begin_frame() {
 void OcclusionTests::ask(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                          const ObjectDrawer& objects, FrameCounters& counters) {
     counters.queries += plan.queries.size();
-    const BoxWidener widener(view, scene.origin(), raster_precision(subpixel_bits_),
+    const BoxWidener widener(view, scene.origin(), bound_raster_precision(subpixel_bits_),
                              objects.largest_growth());
     place_boxes(plan, widener);
     if (!boxes_.empty()) drawer_.upload(boxes_);

@@ -118,6 +118,8 @@ class Executor {
     [[nodiscard]] AnswerCounters answer_counters() const;
 
   private:
+    friend class SteppedExecutor;
+
     struct Uniforms {
         int clip_from_relative = -1;
         int eye_high = -1;
