@@ -316,7 +316,10 @@ class WalkSession::Impl {
         draw.counter = &*work_counter_;
         target_->begin(clip_depth_, kSky);
         gl::finish();
-        if (stepped_) return draw_in_steps(frame, input, draw);
+        if (stepped_) {
+            place_objects(scene_, time_s, placements_);
+            return draw_in_steps(frame, input_for(culling_view_of(frame)), draw);
+        }
         FrameRecord record;
         record.frame = frame;
         const gl::WallTimer timer;

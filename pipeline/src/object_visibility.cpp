@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kFewObjects = 128;
 /// Objects of a leaf: as many as are worth about this many questions, within limits.
 constexpr double kLeafQuestions = 16.0;
-constexpr double kMostPerLeaf = 64.0, kFewPerLeaf = 4.0;
+constexpr double kMostPerLeaf = 64.0, kLeastPerLeaf = 4.0;
 
 }  // namespace
 
@@ -129,12 +129,12 @@ NodeVisibility::Parts NodeVisibility::visit_members(const FrameInput& input, std
 bool NodeVisibility::update_regions(const FrameInput& input) {
     regions_remade_ = false;
     const std::size_t count = input.object_boxes.size();
-    const double per_leaf = mean_object_ns_ > 0.0 ? kLeafQuestions * query_ns_ / mean_object_ns_ : 0.0;
     if (options_.settings.policy != OcclusionPolicy::Model || count < kFewObjects ||
-        options_.object_indices.size() < count || !(per_leaf >= kFewPerLeaf))
+        options_.object_indices.size() < count || !(mean_object_ns_ > 0.0))
         return false;
-    regions_remade_ =
-        regions_.update(input.object_boxes, static_cast<std::uint32_t>(std::min(per_leaf, kMostPerLeaf)));
+    const double worth = kLeafQuestions * query_ns_ / mean_object_ns_;
+    const double per_leaf = worth >= kLeastPerLeaf ? std::min(worth, kMostPerLeaf) : kLeastPerLeaf;
+    regions_remade_ = regions_.update(input.object_boxes, static_cast<std::uint32_t>(per_leaf));
     if (regions_.nodes().size() > count) return false;  // there are no more numbers
     if (regions_remade_)
         for (std::uint32_t i = 0; i < regions_.nodes().size(); ++i) scheduler_.forget(region_item(i));
