@@ -88,8 +88,8 @@ void add_walk(CLI::App& app, WalkOptions& options) {
         ->type_name("W")
         ->capture_default_str();
     walk->add_option("--hierarchy", options.hierarchy,
-                     "chc and chc++: what is culled: bvh (over the scene's objects), octree, auto (the one "
-                     "that was faster on the named scenes)")
+                     "chc and chc++: what is culled: bvh (over the scene's objects), octree, auto (bvh "
+                     "unless objects are large)")
         ->type_name("H")
         ->capture_default_str();
     walk->add_option("--tune", options.tune,

@@ -16,7 +16,6 @@ namespace rhview::cli {
 namespace {
 
 /// Measured, see docs/rivals.md.
-constexpr std::string_view kDefaultHierarchy = "bvh";
 constexpr std::uint32_t kObjectLeaf = 1024;
 constexpr std::uint32_t kOctreeLeaf = 4096;
 
@@ -62,6 +61,11 @@ Status apply_setting(RivalOptions& options, std::string_view key, std::string_vi
                                  setting->high)};
     setting->set(options, value);
     return success();
+}
+
+/// Whether the objects that the scene's author placed are no larger, on average, than an octree's leaves.
+bool has_fine_objects(const Scene& scene) {
+    return static_objects(scene).size() * std::uint64_t{kOctreeLeaf} >= scene.batch_triangles();
 }
 
 void use(OrderedTree tree, PreparedRival& prepared, CullTree& into) {
@@ -123,7 +127,7 @@ Result<PreparedRival> prepare_rival(std::string_view method, const Scene& scene,
         prepared.leaf_triangles = grid.max_triangles;
         prepared.hierarchy = "grid";
         use(make_nested_grid(scene.triangle_batches(), grid), prepared, tree);
-    } else if ((options.hierarchy == "auto" ? kDefaultHierarchy : options.hierarchy) == "bvh") {
+    } else if (options.hierarchy == "bvh" || (options.hierarchy == "auto" && has_fine_objects(scene))) {
         prepared.hierarchy = "bvh";
         prepared.leaf_triangles = options.leaf_triangles.value_or(kObjectLeaf);
         use(make_object_tree(static_objects(scene), scene.triangle_batches(), prepared.leaf_triangles),

@@ -23,7 +23,7 @@ bool is_interactive(std::string_view method);
 
 /// What the user says about such a method.
 struct RivalOptions {
-    std::string hierarchy = "auto";  ///< of chc and chc++: "bvh", "octree", or the one that is the default
+    std::string hierarchy = "auto";  ///< of chc and chc++: "bvh", "octree", or what suits the scene
     std::optional<std::uint32_t> leaf_triangles;
     ChcPlusPlusOptions chc_plus_plus;
     NestedGridOptions grid;

@@ -15,10 +15,10 @@
 namespace rhview {
 
 struct NestedGridOptions {
-    std::uint32_t levels = 2;       ///< 2 or 3
-    std::uint32_t top_cells = 32;   ///< of the first grid along the scene's longest side; cells are cubes
+    std::uint32_t levels = 3;       ///< 1 to 3
+    std::uint32_t top_cells = 8;    ///< of the first grid along the scene's longest side; cells are cubes
     std::uint32_t inner_cells = 4;  ///< along each side of a cell that is divided
-    std::uint32_t max_triangles = 4096;  ///< of a cell that is not divided, but for the last level
+    std::uint32_t max_triangles = 16384;  ///< of a cell that is not divided, but for the last level
 };
 
 /// Each triangle is in one cell, by its centroid; a cell's box is that of its triangles. A leaf is one range
