@@ -1,0 +1,466 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "rhview/baselines/grid_planner.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "rhview/base/assert.h"
+
+namespace rhview {
+namespace {
+
+/// Frames of a volume whose object was never hidden before.
+constexpr std::uint16_t kFirstPeriod = 8;
+
+Aabb grown(const Aabb& box, double by) {
+    const auto f = static_cast<float>(by);
+    return {box.min - f, box.max + f};
+}
+
+/// From the point to the nearest and to the farthest point of a cell, metres.
+struct Distances {
+    double nearest = 0.0;
+    double farthest = 0.0;
+};
+Distances distances_to_cell(const glm::dvec3& point, const CellGrid& grid, const glm::ivec3& cell) {
+    const glm::dvec3 low = grid.from_cells(glm::dvec3(cell)) - point;
+    const glm::dvec3 high = grid.from_cells(glm::dvec3(cell) + 1.0) - point;
+    const glm::dvec3 nearest = glm::max(glm::max(low, -high), glm::dvec3(0.0));
+    return {glm::length(nearest), glm::length(glm::max(glm::abs(low), glm::abs(high)))};
+}
+
+bool touch(const Aabb& box, const glm::dvec3& point) {
+    for (int a = 0; a < 3; ++a)
+        if (point[a] < static_cast<double>(box.min[a]) || point[a] > static_cast<double>(box.max[a]))
+            return false;
+    return true;
+}
+
+std::array<glm::dvec3, 3> in_cells(const std::array<glm::dvec3, 3>& t, const CellGrid& grid) {
+    return {grid.to_cells(t[0]), grid.to_cells(t[1]), grid.to_cells(t[2])};
+}
+
+/// Those of word `word` among bits [first, end).
+std::uint64_t bits_between(int first, int end, std::size_t word) {
+    const int low = std::max(first - static_cast<int>(64 * word), 0);
+    const int high = std::min(end - static_cast<int>(64 * word), 64);
+    return low < high ? (~std::uint64_t{0} >> (64 - (high - low))) << low : 0;
+}
+
+/// The eye is where all rays of the view meet.
+bool is_perspective(const glm::dmat4& clip_from_relative) {
+    const glm::dvec4& origin = clip_from_relative[3];
+    return origin.x == 0.0 && origin.y == 0.0 && origin.w == 0.0;
+}
+
+/// How far the corners of the near plane are.
+double near_corner_distance(const glm::dmat4& clip_from_relative, ClipDepth depth) {
+    const double z = depth == ClipDepth::NegativeOneToOne ? -1.0 : depth == ClipDepth::ZeroToOne ? 0.0 : 1.0;
+    const glm::dmat4 inverse = glm::inverse(clip_from_relative);
+    double farthest = 0.0;
+    for (const double x : {-1.0, 1.0})
+        for (const double y : {-1.0, 1.0}) {
+            const glm::dvec4 corner = inverse * glm::dvec4(x, y, z, 1.0);
+            farthest = std::max(farthest, glm::length(glm::dvec3(corner) / corner.w));
+        }
+    return farthest;
+}
+
+}  // namespace
+
+GridPlanner::GridPlanner(std::span<const TriangleBatch> batches, std::span<const bool> occludes,
+                         std::vector<GridStatic> statics, std::vector<GridObject> objects,
+                         const GridOptions& options)
+    : statics_(std::move(statics)),
+      objects_(std::move(objects)),
+      batches_(batches),
+      nothing_leaves_(options.nothing_leaves),
+      period_(objects_.size(), kFirstPeriod) {
+    Aabb bounds = options.bounds;
+    if (bounds.is_empty()) {
+        for (const GridStatic& item : statics_) bounds.grow(item.bounds);
+        for (const GridObject& object : objects_) bounds.grow(object.bounds);
+    }
+    if (bounds.is_empty()) bounds = {glm::vec3(0.0f), glm::vec3(1.0f)};
+    grid_ = CellGrid(bounds, options.cells);
+    solids_ = find_solid_cells(grid_, batches, occludes);
+    build_fixed(batches);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int sign : {-1, 1}) faces_.emplace_back(axis, sign, options.face_pixels);
+
+    occluders_ = fixed_occluders_;
+    reached_ = CellSet(grid_.cells());
+    moving_heads_.assign(grid_.cell_count(), kNone);
+    volumes_ = TemporalVolumes(grid_.cells(), objects_.size());
+    for (std::uint32_t i = 0; i < objects_.size(); ++i)
+        if (objects_[i].max_step > 0.0f) tracked_.push_back(ObjectId{i});
+    tracked_.reserve(objects_.size());
+    kept_.reserve(objects_.size());
+    found_.reserve(2 * objects_.size());
+    shown_.assign((statics_.size() + objects_.size() + 63) / 64, 0);
+    const glm::ivec3 n = grid_.cells();
+    const int longest = std::max({n.x, n.y, n.z});
+    row_.resize(static_cast<std::size_t>(longest + 63) / 64);
+    slab_.resize(row_.size() * static_cast<std::size_t>(longest));
+}
+
+void GridPlanner::append_static_cells(std::vector<CellEntry>& entries) const {
+    std::vector<std::uint32_t> item_of(solids_.surface_of.size());
+    for (std::uint32_t i = 0; i < statics_.size(); ++i) {
+        const DrawRange& range = statics_[i].range;
+        for (std::uint32_t t = range.first_index / 3; t < (range.first_index + range.index_count) / 3; ++t)
+            item_of[t] = i;
+    }
+    for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) {
+        std::uint32_t last = kNone;
+        for (const std::uint32_t triangle : solids_.triangles.of(cell)) {
+            if (item_of[triangle] != last) entries.push_back({cell, item_of[triangle]});
+            last = item_of[triangle];
+        }
+    }
+}
+
+void GridPlanner::build_fixed(std::span<const TriangleBatch> batches) {
+    lowest_y_ = std::numeric_limits<float>::infinity();
+    std::uint32_t triangles = 0;
+    for (const TriangleBatch& batch : batches) {
+        batch_first_triangle_.push_back(triangles);
+        triangles += static_cast<std::uint32_t>(batch.indices.size() / 3);
+    }
+    for (const GridStatic& item : statics_) lowest_y_ = std::min(lowest_y_, item.bounds.min.y);
+
+    std::vector<CellEntry> entries;
+    append_static_cells(entries);
+    owned_ = solids_.opaque;
+    for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+        const GridObject& object = objects_[i];
+        if (object.max_step > 0.0f) continue;
+        const glm::dvec3 centre(object.bounds.centre()), inner = centre + glm::dvec3(object.inner_offset);
+        for_each_cell(grid_.clipped(grid_.touched(object.bounds)), [&](const glm::ivec3& cell) {
+            const auto c = static_cast<std::uint32_t>(grid_.index(cell));
+            if (distances_to_cell(centre, grid_, cell).nearest <= object.outer_radius)
+                entries.push_back({c, static_cast<std::uint32_t>(statics_.size()) + i});
+            if (distances_to_cell(inner, grid_, cell).farthest < object.inner_radius)
+                owned_.push_back({c, solids_.surface_count + i});
+        });
+    }
+    fixed_ = make_cell_lists(grid_.cell_count(), entries);
+    fixed_occluders_ = CellSet(grid_.cells());
+    for (const OpaqueCell& o : owned_) fixed_occluders_.insert(grid_.cell_at(o.cell));
+    std::sort(owned_.begin(), owned_.end(), [](const OpaqueCell& a, const OpaqueCell& b) {
+        return std::pair(a.surface, a.cell) < std::pair(b.surface, b.cell);
+    });
+    const std::size_t owners = solids_.surface_count + objects_.size();
+    owner_first_.assign(owners + 1, 0);
+    for (const OpaqueCell& o : owned_) ++owner_first_[o.surface + 1];
+    for (std::size_t o = 0; o < owners; ++o) owner_first_[o + 1] += owner_first_[o];
+}
+
+GridPlanner::Eye GridPlanner::eye_of(const FrameInput& input) const {
+    Eye eye;
+    eye.scene = input.culling_view.eye() - input.scene_origin;
+    eye.position = grid_.to_cells(eye.scene);
+    eye.cell = glm::ivec3(glm::floor(glm::clamp(eye.position, glm::dvec3(-1e8), glm::dvec3(1e8))));
+    const glm::dmat4 clip = input.culling_view.clip_from_eye_relative();
+    eye.near_reach = near_corner_distance(clip, input.culling_view.clip_depth) * 1.001;
+    const auto row = [&](int r) { return glm::dvec3(clip[0][r], clip[1][r], clip[2][r]); };
+    const std::array<glm::dvec3, 4> planes{row(3) + row(0), row(3) - row(0), row(3) + row(1),
+                                           row(3) - row(1)};
+    for (std::size_t p = 0; p < 4; ++p) eye.planes[p] = glm::normalize(planes[p] * grid_.cell_size());
+    return eye;
+}
+
+void GridPlanner::restore_occluders() {
+    for (const glm::ivec3& cell : changed_) {
+        if (fixed_occluders_.contains(cell))
+            occluders_.insert(cell);
+        else
+            occluders_.erase(cell);
+    }
+    changed_.clear();
+}
+
+void GridPlanner::drop_owner(std::uint32_t owner) {
+    for (std::uint32_t i = owner_first_[owner]; i < owner_first_[owner + 1]; ++i) {
+        changed_.push_back(grid_.cell_at(owned_[i].cell));
+        occluders_.erase(changed_.back());
+    }
+}
+
+// What the near plane may cut away hides nothing: a surface with a triangle that near, an object whose box
+// is.
+void GridPlanner::drop_near_surfaces(const Eye& eye) {
+    const Aabb near = grown({glm::vec3(eye.scene), glm::vec3(eye.scene)}, eye.near_reach);
+    for_each_cell(grid_.clipped(grid_.touched(near)), [&](const glm::ivec3& cell) {
+        const std::size_t c = grid_.index(cell);
+        for (const std::uint32_t t : solids_.triangles.of(c)) {
+            const std::uint32_t surface = solids_.surface_of[t];
+            if (surface == SolidCells::kOpen || owner_first_[surface] == owner_first_[surface + 1]) continue;
+            if (triangle_distance(eye.scene, corners_of(t)) <= eye.near_reach) drop_owner(surface);
+        }
+        for (const std::uint32_t item : fixed_.of(c)) {
+            if (item < statics_.size()) continue;
+            const auto object = item - static_cast<std::uint32_t>(statics_.size());
+            if (touch(grown(objects_[object].bounds, eye.near_reach), eye.scene))
+                drop_owner(solids_.surface_count + object);
+        }
+    });
+}
+
+// From inside of a surface its triangles are seen from behind and hide nothing. It is left out of a surface
+// that winds around the eye: crossings of the line along x, counted from the eye on.
+void GridPlanner::drop_surfaces_around(const Eye& eye) {
+    windings_.clear();
+    const glm::ivec3 n = grid_.cells();
+    if (eye.cell.y < 0 || eye.cell.y >= n.y || eye.cell.z < 0 || eye.cell.z >= n.z) return;
+    for (int x = std::max(eye.cell.x, 0); x < n.x; ++x)
+        for (const std::uint32_t t : solids_.triangles.of(grid_.index({x, eye.cell.y, eye.cell.z}))) {
+            const std::uint32_t surface = solids_.surface_of[t];
+            if (surface == SolidCells::kOpen || owner_first_[surface] == owner_first_[surface + 1]) continue;
+            const int crossing = ray_crossing(in_cells(corners_of(t), grid_), eye.position, x, n.x);
+            if (crossing == 0) continue;
+            const auto at = std::find_if(windings_.begin(), windings_.end(),
+                                         [&](const auto& w) { return w.first == surface; });
+            if (at == windings_.end())
+                windings_.emplace_back(surface, crossing);
+            else
+                at->second += crossing;
+        }
+    for (const auto& [surface, winding] : windings_)
+        if (winding != 0) drop_owner(surface);
+}
+
+std::array<glm::dvec3, 3> GridPlanner::corners_of(std::uint32_t triangle) const {
+    const auto after = std::upper_bound(batch_first_triangle_.begin(), batch_first_triangle_.end(), triangle);
+    const auto b = static_cast<std::size_t>(after - batch_first_triangle_.begin()) - 1;
+    const std::size_t first = 3 * std::size_t{triangle - batch_first_triangle_[b]};
+    std::array<glm::dvec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+        corners[k] = glm::dvec3(batches_[b].positions[batches_[b].indices[first + k]]);
+    return corners;
+}
+
+void GridPlanner::add_occluder(const GridObject& object, const Aabb& box, const Eye& eye) {
+    if (object.inner_radius <= 0.0f || touch(grown(box, eye.near_reach), eye.scene)) return;
+    const glm::dvec3 centre = glm::dvec3(box.centre()) + glm::dvec3(object.inner_offset);
+    const glm::vec3 radius(object.inner_radius);
+    for_each_cell(grid_.clipped(grid_.touched({glm::vec3(centre) - radius, glm::vec3(centre) + radius})),
+                  [&](const glm::ivec3& cell) {
+                      if (distances_to_cell(centre, grid_, cell).farthest >= object.inner_radius) return;
+                      occluders_.insert(cell);
+                      changed_.push_back(cell);
+                      ++statistics_.opaque_cells;
+                  });
+}
+
+// Found while the traversal runs, an object may lie in cells that it has passed.
+void GridPlanner::discretise(ObjectId object, const FrameInput& input, const Eye& eye) {
+    const auto id = static_cast<std::uint32_t>(object);
+    const GridObject& properties = objects_[id];
+    const Aabb& box = input.object_boxes[id];
+    const CellBox cells = grid_.touched(box);
+    const auto item = static_cast<std::uint32_t>(statics_.size()) + id;
+    if (!grid_.holds(cells)) return show(item);
+    add_occluder(properties, box, eye);
+    const glm::dvec3 centre(box.centre());
+    for_each_cell(cells, [&](const glm::ivec3& cell) {
+        if (distances_to_cell(centre, grid_, cell).nearest > properties.outer_radius) return;
+        const auto c = static_cast<std::uint32_t>(grid_.index(cell));
+        if (moving_heads_[c] == kNone) moving_cells_.push_back(c);
+        moving_nodes_.push_back({id, moving_heads_[c]});
+        moving_heads_[c] = static_cast<std::uint32_t>(moving_nodes_.size() - 1);
+        if (reached_.contains(cell)) show(item);
+    });
+}
+
+void GridPlanner::reveal(ObjectId object, const FrameInput& input, const Eye& eye) {
+    if (!volumes_.has(object)) return;
+    volumes_.remove(object);
+    ++statistics_.volumes_revealed;
+    std::uint16_t& period = period_[index_of(object)];
+    period = std::max<std::uint16_t>(1, period / 2);
+    tracked_.push_back(object);
+    discretise(object, input, eye);
+}
+
+// The longest that fits: all of it in the grid, the eye outside. An object that has none is looked at again
+// in the next frame.
+void GridPlanner::give_volume(ObjectId object, const Aabb& box, const Eye& eye) {
+    const float step = objects_[index_of(object)].max_step;
+    for (std::uint32_t period = std::isfinite(step) ? period_[index_of(object)] : 0; period > 0;
+         period /= 2) {
+        CellBox cells = grid_.touched(grown(box, static_cast<double>(step) * period));
+        if (nothing_leaves_) cells = grid_.clipped(cells);
+        if (!grid_.holds(cells) || cells.is_empty() || cells.contains(eye.cell)) continue;
+        volumes_.insert(object, cells, period);
+        return;
+    }
+    kept_.push_back(object);
+}
+
+void GridPlanner::renew_expired(const FrameInput& input, const Eye& eye) {
+    found_.clear();
+    volumes_.next_frame(found_);
+    statistics_.volumes_renewed = found_.size();
+    for (const ObjectId object : found_) {
+        volumes_.remove(object);
+        std::uint16_t& period = period_[index_of(object)];
+        period =
+            static_cast<std::uint16_t>(std::min<std::uint32_t>(2u * period, TemporalVolumes::kLongestPeriod));
+        give_volume(object, input.object_boxes[index_of(object)], eye);
+    }
+    tracked_.insert(tracked_.end(), kept_.begin(), kept_.end());
+    kept_.clear();
+}
+
+void GridPlanner::begin_frame(const FrameInput& input, const Eye& eye) {
+    restore_occluders();
+    for (const std::uint32_t cell : moving_cells_) moving_heads_[cell] = kNone;
+    moving_cells_.clear();
+    moving_nodes_.clear();
+    for (const glm::ivec3& cell : reached_cells_) reached_.erase(cell);
+    reached_cells_.clear();
+    std::fill(shown_.begin(), shown_.end(), 0);
+    statistics_ = {};
+    renew_expired(input, eye);
+    if (solids_.opened_below && eye.scene.y <= static_cast<double>(lowest_y_) + eye.near_reach)
+        for (std::uint32_t surface = 0; surface < solids_.surface_count; ++surface) drop_owner(surface);
+    drop_near_surfaces(eye);
+    drop_surfaces_around(eye);
+    for (const ObjectId object : tracked_) discretise(object, input, eye);
+    found_.clear();
+    volumes_.find_around(eye.cell, found_);
+    for (const ObjectId object : found_) reveal(object, input, eye);
+}
+
+void GridPlanner::show(std::uint32_t item) {
+    shown_[item / 64] |= std::uint64_t{1} << (item % 64);
+}
+
+void GridPlanner::visit_cell(const glm::ivec3& cell, const FrameInput& input, const Eye& eye) {
+    ++statistics_.cells_reached;
+    reached_.insert(cell);
+    reached_cells_.push_back(cell);
+    const std::size_t c = grid_.index(cell);
+    found_.clear();
+    volumes_.find_at(cell, found_);
+    for (const ObjectId object : found_) reveal(object, input, eye);
+    for (const std::uint32_t item : fixed_.of(c)) show(item);
+    for (std::uint32_t n = moving_heads_[c]; n != kNone; n = moving_nodes_[n].next)
+        show(static_cast<std::uint32_t>(statics_.size()) + moving_nodes_[n].object);
+}
+
+// A cell on an edge of the shell belongs to the face of the first axis.
+void GridPlanner::visit_face(std::size_t face, int shell, const FrameInput& input, const Eye& eye) {
+    ShellFace& volume = faces_[face];
+    const int axis = volume.axis(), slab = eye.cell[axis] + volume.sign() * shell;
+    const glm::ivec3 n = grid_.cells();
+    if (slab < 0 || slab >= n[axis] || (shell > ShellFace::kCutShells && !volume.is_open())) return;
+    const SlabAxes a = volume.axes();
+    const int u_reach = a.u < axis ? shell - 1 : shell, v_reach = a.v < axis ? shell - 1 : shell;
+    const int u_first = std::max(0, eye.cell[a.u] - u_reach),
+              u_last = std::min(n[a.u] - 1, eye.cell[a.u] + u_reach);
+    const int v_first = std::max(0, eye.cell[a.v] - v_reach),
+              v_last = std::min(n[a.v] - 1, eye.cell[a.v] + v_reach);
+    const std::size_t words = (static_cast<std::size_t>(n[a.u]) + 63) / 64;
+    const std::span<std::uint64_t> reached(row_.data(), words);
+    for (int v = v_first; u_first <= u_last && v <= v_last; ++v) {
+        std::fill(reached.begin(), reached.end(), 0);
+        volume.find_reached(slab, v, u_first, u_last, reached);
+        std::uint64_t* hidden = &slab_[static_cast<std::size_t>(v) * words];
+        for (std::size_t w = 0; w < words; ++w) {
+            hidden[w] = bits_between(u_first, u_last + 1, w) & ~reached[w];
+            for (std::uint64_t rest = reached[w]; rest != 0; rest &= rest - 1) {
+                glm::ivec3 cell(slab);
+                cell[a.u] = static_cast<int>(64 * w) + std::countr_zero(rest);
+                cell[a.v] = v;
+                visit_cell(cell, input, eye);
+            }
+        }
+    }
+    if (shell == 0 || !volume.is_open()) return;
+    for (int v = 0; v < n[a.v]; ++v) {
+        const std::span<const std::uint64_t> opaque = occluders_.row(axis, slab, v);
+        const bool tested = u_first <= u_last && v >= v_first && v <= v_last;
+        std::uint64_t* blocked = &slab_[static_cast<std::size_t>(v) * words];
+        for (std::size_t w = 0; w < words; ++w) blocked[w] = (tested ? blocked[w] : 0) | opaque[w];
+    }
+    volume.occlude(slab, {slab_.data(), words * static_cast<std::size_t>(n[a.v])}, words, n[a.u], n[a.v]);
+}
+
+void GridPlanner::traverse(const FrameInput& input, const Eye& eye) {
+    for (ShellFace& face : faces_) face.begin(eye.position, eye.planes);
+    const glm::ivec3 last_cell = grid_.cells() - 1,
+                     last_side = glm::max(glm::abs(eye.cell), glm::abs(last_cell - eye.cell)),
+                     first_side = glm::max(glm::max(-eye.cell, eye.cell - last_cell), glm::ivec3(0));
+    const int last_shell = std::max({last_side.x, last_side.y, last_side.z});
+    const int first_shell = std::max({first_side.x, first_side.y, first_side.z, 1});
+    if (grid_.holds({eye.cell, eye.cell})) visit_cell(eye.cell, input, eye);
+    for (int shell = first_shell; shell <= last_shell; ++shell) {
+        bool open = shell <= ShellFace::kCutShells;
+        for (std::size_t face = 0; face < faces_.size(); ++face) {
+            visit_face(face, shell, input, eye);
+            open = open || faces_[face].is_open();
+        }
+        if (!open) return;
+    }
+}
+
+// What was seen stays tracked; the rest is hidden from now on.
+void GridPlanner::give_volumes(const FrameInput& input, const Eye& eye) {
+    for (const ObjectId object : tracked_) {
+        const std::size_t item = statics_.size() + index_of(object);
+        if ((shown_[item / 64] >> (item % 64) & 1) != 0)
+            kept_.push_back(object);
+        else
+            give_volume(object, input.object_boxes[index_of(object)], eye);
+    }
+    tracked_.swap(kept_);
+    kept_.clear();
+    statistics_.volumes = volumes_.size();
+}
+
+void GridPlanner::emit(const FrameInput& input, const Frustum& frustum, FramePlan& plan) {
+    for (std::size_t word = 0; word < shown_.size(); ++word)
+        for (std::uint64_t rest = shown_[word]; rest != 0; rest &= rest - 1) {
+            const std::size_t item = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
+            const bool is_static = item < statics_.size();
+            const std::size_t object = item - statics_.size();
+            PlaneMask mask = frustum.mask;
+            const Aabb& box = is_static ? statics_[item].bounds : input.object_boxes[object];
+            if (classify(frustum, box, mask) == Containment::Outside) continue;
+            if (is_static)
+                plan.opaque.push_back(statics_[item].range);
+            else
+                plan.objects.push_back(ObjectId{static_cast<std::uint32_t>(object)});
+            plan.chosen.push_back(static_cast<std::uint32_t>(item));
+        }
+}
+
+void GridPlanner::plan(const FrameInput& input, FramePlan& plan) {
+    RHVIEW_ASSERT(input.object_boxes.size() == objects_.size());
+    plan.clear();
+    const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
+    const Eye eye = eye_of(input);
+    begin_frame(input, eye);
+    if (is_perspective(input.culling_view.clip_from_eye_relative())) {
+        traverse(input, eye);
+        give_volumes(input, eye);
+    } else {
+        std::fill(shown_.begin(), shown_.end(), ~std::uint64_t{0});
+        shown_.back() >>= (64 - (statics_.size() + objects_.size()) % 64) % 64;
+    }
+    emit(input, frustum, plan);
+    plan.nodes_visited = statistics_.cells_reached;
+}
+
+Aabb GridPlanner::bounds_of(std::uint32_t chosen) const {
+    return chosen < statics_.size() ? statics_[chosen].bounds : objects_[chosen - statics_.size()].bounds;
+}
+
+}  // namespace rhview
