@@ -73,14 +73,15 @@ double near_corner_distance(const glm::dmat4& clip_from_relative, ClipDepth dept
 
 }  // namespace
 
-GridPlanner::GridPlanner(std::span<const TriangleBatch> batches, std::span<const bool> occludes,
+GridPlanner::GridPlanner(std::span<const TriangleBatch> batches, const std::vector<bool>& occludes,
                          std::vector<GridStatic> statics, std::vector<GridObject> objects,
                          const GridOptions& options)
     : statics_(std::move(statics)),
       objects_(std::move(objects)),
-      batches_(batches),
+      batches_(batches.begin(), batches.end()),
       nothing_leaves_(options.nothing_leaves),
-      period_(objects_.size(), kFirstPeriod) {
+      period_(objects_.size(), kFirstPeriod),
+      fuses_balls_(options.fuses_balls) {
     Aabb bounds = options.bounds;
     if (bounds.is_empty()) {
         for (const GridStatic& item : statics_) bounds.grow(item.bounds);
@@ -105,6 +106,8 @@ GridPlanner::GridPlanner(std::span<const TriangleBatch> batches, std::span<const
     shown_.assign((statics_.size() + objects_.size() + 63) / 64, 0);
     const glm::ivec3 n = grid_.cells();
     const int longest = std::max({n.x, n.y, n.z});
+    longest_axis_ = static_cast<std::size_t>(longest);
+    waiting_heads_.assign(faces_.size() * longest_axis_, kNone);
     row_.resize(static_cast<std::size_t>(longest + 63) / 64);
     slab_.resize(row_.size() * static_cast<std::size_t>(longest));
 }
@@ -194,19 +197,19 @@ void GridPlanner::drop_owner(std::uint32_t owner) {
 
 // What the near plane may cut away hides nothing: a surface with a triangle that near, an object whose box
 // is.
-void GridPlanner::drop_near_surfaces(const Eye& eye) {
-    const Aabb near = grown({glm::vec3(eye.scene), glm::vec3(eye.scene)}, eye.near_reach);
+void GridPlanner::drop_near_surfaces() {
+    const Aabb near = grown({glm::vec3(eye_.scene), glm::vec3(eye_.scene)}, eye_.near_reach);
     for_each_cell(grid_.clipped(grid_.touched(near)), [&](const glm::ivec3& cell) {
         const std::size_t c = grid_.index(cell);
         for (const std::uint32_t t : solids_.triangles.of(c)) {
             const std::uint32_t surface = solids_.surface_of[t];
             if (surface == SolidCells::kOpen || owner_first_[surface] == owner_first_[surface + 1]) continue;
-            if (triangle_distance(eye.scene, corners_of(t)) <= eye.near_reach) drop_owner(surface);
+            if (triangle_distance(eye_.scene, corners_of(t)) <= eye_.near_reach) drop_owner(surface);
         }
         for (const std::uint32_t item : fixed_.of(c)) {
             if (item < statics_.size()) continue;
             const auto object = item - static_cast<std::uint32_t>(statics_.size());
-            if (touch(grown(objects_[object].bounds, eye.near_reach), eye.scene))
+            if (touch(grown(objects_[object].bounds, eye_.near_reach), eye_.scene))
                 drop_owner(solids_.surface_count + object);
         }
     });
@@ -214,15 +217,15 @@ void GridPlanner::drop_near_surfaces(const Eye& eye) {
 
 // From inside of a surface its triangles are seen from behind and hide nothing. It is left out of a surface
 // that winds around the eye: crossings of the line along x, counted from the eye on.
-void GridPlanner::drop_surfaces_around(const Eye& eye) {
+void GridPlanner::drop_surfaces_around() {
     windings_.clear();
     const glm::ivec3 n = grid_.cells();
-    if (eye.cell.y < 0 || eye.cell.y >= n.y || eye.cell.z < 0 || eye.cell.z >= n.z) return;
-    for (int x = std::max(eye.cell.x, 0); x < n.x; ++x)
-        for (const std::uint32_t t : solids_.triangles.of(grid_.index({x, eye.cell.y, eye.cell.z}))) {
+    if (eye_.cell.y < 0 || eye_.cell.y >= n.y || eye_.cell.z < 0 || eye_.cell.z >= n.z) return;
+    for (int x = std::max(eye_.cell.x, 0); x < n.x; ++x)
+        for (const std::uint32_t t : solids_.triangles.of(grid_.index({x, eye_.cell.y, eye_.cell.z}))) {
             const std::uint32_t surface = solids_.surface_of[t];
             if (surface == SolidCells::kOpen || owner_first_[surface] == owner_first_[surface + 1]) continue;
-            const int crossing = ray_crossing(in_cells(corners_of(t), grid_), eye.position, x, n.x);
+            const int crossing = ray_crossing(in_cells(corners_of(t), grid_), eye_.position, x, n.x);
             if (crossing == 0) continue;
             const auto at = std::find_if(windings_.begin(), windings_.end(),
                                          [&](const auto& w) { return w.first == surface; });
@@ -245,8 +248,8 @@ std::array<glm::dvec3, 3> GridPlanner::corners_of(std::uint32_t triangle) const 
     return corners;
 }
 
-void GridPlanner::add_occluder(const GridObject& object, const Aabb& box, const Eye& eye) {
-    if (object.inner_radius <= 0.0f || touch(grown(box, eye.near_reach), eye.scene)) return;
+void GridPlanner::add_occluder(const GridObject& object, const Aabb& box) {
+    if (object.inner_radius <= 0.0f || touch(grown(box, eye_.near_reach), eye_.scene)) return;
     const glm::dvec3 centre = glm::dvec3(box.centre()) + glm::dvec3(object.inner_offset);
     const glm::vec3 radius(object.inner_radius);
     for_each_cell(grid_.clipped(grid_.touched({glm::vec3(centre) - radius, glm::vec3(centre) + radius})),
@@ -259,14 +262,14 @@ void GridPlanner::add_occluder(const GridObject& object, const Aabb& box, const 
 }
 
 // Found while the traversal runs, an object may lie in cells that it has passed.
-void GridPlanner::discretise(ObjectId object, const FrameInput& input, const Eye& eye) {
+void GridPlanner::discretise(ObjectId object) {
     const auto id = static_cast<std::uint32_t>(object);
     const GridObject& properties = objects_[id];
-    const Aabb& box = input.object_boxes[id];
+    const Aabb& box = boxes_[id];
     const CellBox cells = grid_.touched(box);
     const auto item = static_cast<std::uint32_t>(statics_.size()) + id;
     if (!grid_.holds(cells)) return show(item);
-    add_occluder(properties, box, eye);
+    add_occluder(properties, box);
     const glm::dvec3 centre(box.centre());
     for_each_cell(cells, [&](const glm::ivec3& cell) {
         if (distances_to_cell(centre, grid_, cell).nearest > properties.outer_radius) return;
@@ -278,32 +281,34 @@ void GridPlanner::discretise(ObjectId object, const FrameInput& input, const Eye
     });
 }
 
-void GridPlanner::reveal(ObjectId object, const FrameInput& input, const Eye& eye) {
+void GridPlanner::reveal(ObjectId object) {
     if (!volumes_.has(object)) return;
     volumes_.remove(object);
     ++statistics_.volumes_revealed;
     std::uint16_t& period = period_[index_of(object)];
     period = std::max<std::uint16_t>(1, period / 2);
     tracked_.push_back(object);
-    discretise(object, input, eye);
+    discretise(object);
 }
 
 // The longest that fits: all of it in the grid, the eye outside. An object that has none is looked at again
 // in the next frame.
-void GridPlanner::give_volume(ObjectId object, const Aabb& box, const Eye& eye) {
+void GridPlanner::give_volume(ObjectId object, const Aabb& box) {
     const float step = objects_[index_of(object)].max_step;
-    for (std::uint32_t period = std::isfinite(step) ? period_[index_of(object)] : 0; period > 0;
-         period /= 2) {
+    const std::uint32_t longest = std::isfinite(step) ? period_[index_of(object)] : 0;
+    // Ends are spread, lest all volumes of one frame end in one frame.
+    const std::uint32_t spread = (static_cast<std::uint32_t>(object) * 0x9e3779b9u) >> 16;
+    for (std::uint32_t period = longest - spread % (longest / 2 + 1); period > 0; period /= 2) {
         CellBox cells = grid_.touched(grown(box, static_cast<double>(step) * period));
         if (nothing_leaves_) cells = grid_.clipped(cells);
-        if (!grid_.holds(cells) || cells.is_empty() || cells.contains(eye.cell)) continue;
+        if (!grid_.holds(cells) || cells.is_empty() || cells.contains(eye_.cell)) continue;
         volumes_.insert(object, cells, period);
         return;
     }
     kept_.push_back(object);
 }
 
-void GridPlanner::renew_expired(const FrameInput& input, const Eye& eye) {
+void GridPlanner::renew_expired() {
     found_.clear();
     volumes_.next_frame(found_);
     statistics_.volumes_renewed = found_.size();
@@ -312,13 +317,13 @@ void GridPlanner::renew_expired(const FrameInput& input, const Eye& eye) {
         std::uint16_t& period = period_[index_of(object)];
         period =
             static_cast<std::uint16_t>(std::min<std::uint32_t>(2u * period, TemporalVolumes::kLongestPeriod));
-        give_volume(object, input.object_boxes[index_of(object)], eye);
+        give_volume(object, boxes_[index_of(object)]);
     }
     tracked_.insert(tracked_.end(), kept_.begin(), kept_.end());
     kept_.clear();
 }
 
-void GridPlanner::begin_frame(const FrameInput& input, const Eye& eye) {
+void GridPlanner::begin_frame() {
     restore_occluders();
     for (const std::uint32_t cell : moving_cells_) moving_heads_[cell] = kNone;
     moving_cells_.clear();
@@ -327,51 +332,91 @@ void GridPlanner::begin_frame(const FrameInput& input, const Eye& eye) {
     reached_cells_.clear();
     std::fill(shown_.begin(), shown_.end(), 0);
     statistics_ = {};
-    renew_expired(input, eye);
-    if (solids_.opened_below && eye.scene.y <= static_cast<double>(lowest_y_) + eye.near_reach)
+    renew_expired();
+    if (solids_.opened_below && eye_.scene.y <= static_cast<double>(lowest_y_) + eye_.near_reach)
         for (std::uint32_t surface = 0; surface < solids_.surface_count; ++surface) drop_owner(surface);
-    drop_near_surfaces(eye);
-    drop_surfaces_around(eye);
-    for (const ObjectId object : tracked_) discretise(object, input, eye);
+    drop_near_surfaces();
+    drop_surfaces_around();
+    for (const ObjectId object : tracked_) discretise(object);
     found_.clear();
-    volumes_.find_around(eye.cell, found_);
-    for (const ObjectId object : found_) reveal(object, input, eye);
+    volumes_.find_around(eye_.cell, found_);
+    for (const ObjectId object : found_) reveal(object);
 }
 
 void GridPlanner::show(std::uint32_t item) {
-    shown_[item / 64] |= std::uint64_t{1} << (item % 64);
+    const std::uint64_t bit = std::uint64_t{1} << (item % 64);
+    if ((shown_[item / 64] & bit) != 0) return;
+    shown_[item / 64] |= bit;
+    if (fuses_balls_ && item >= statics_.size())
+        await_ball(item - static_cast<std::uint32_t>(statics_.size()));
 }
 
-void GridPlanner::visit_cell(const glm::ivec3& cell, const FrameInput& input, const Eye& eye) {
+// A ball ends rays in each face that has it before the eye's slab, from the first shell that is past it. What
+// the near plane may cut does not; nor does what is found when the traversal is past it.
+void GridPlanner::await_ball(std::uint32_t object) {
+    const GridObject& properties = objects_[object];
+    const Aabb& box = boxes_[object];
+    if (properties.inner_radius <= 0.0f || touch(grown(box, eye_.near_reach), eye_.scene)) return;
+    const glm::dvec3 centre = glm::dvec3(box.centre()) + glm::dvec3(properties.inner_offset) - eye_.scene;
+    const double radius = properties.inner_radius;
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
+        if (!faces_[face].is_open()) continue;
+        const int axis = faces_[face].axis();
+        const int sign = faces_[face].sign(), last = grid_.cells()[axis] - 1;
+        const double size = grid_.cell_size()[axis], beyond = (centre[axis] * sign + radius) / size;
+        if (centre[axis] * sign <= radius) continue;
+        // From the eye back to the border of its cell.
+        const double into =
+            sign > 0 ? eye_.position[axis] - eye_.cell[axis] : eye_.cell[axis] + 1 - eye_.position[axis];
+        const int shell = std::max(static_cast<int>(std::ceil(beyond + into + 1e-6)), shell_ + 1);
+        const int slab = eye_.cell[axis] + sign * shell;
+        if (sign > 0 ? slab > last : slab < 0) continue;
+        const std::size_t list = face * longest_axis_ + static_cast<std::size_t>(std::clamp(slab, 0, last));
+        waiting_.push_back({centre, radius, waiting_heads_[list]});
+        waiting_heads_[list] = static_cast<std::uint32_t>(waiting_.size() - 1);
+    }
+}
+
+void GridPlanner::press_balls(std::size_t face, int slab) {
+    std::uint32_t& head = waiting_heads_[face * longest_axis_ + static_cast<std::size_t>(slab)];
+    for (std::uint32_t n = head; n != kNone && faces_[face].is_open(); n = waiting_[n].next)
+        faces_[face].occlude_ball(waiting_[n].centre, waiting_[n].radius, grid_.cell_size());
+    head = kNone;
+}
+
+void GridPlanner::visit_cell(const glm::ivec3& cell) {
     ++statistics_.cells_reached;
     reached_.insert(cell);
     reached_cells_.push_back(cell);
     const std::size_t c = grid_.index(cell);
     found_.clear();
     volumes_.find_at(cell, found_);
-    for (const ObjectId object : found_) reveal(object, input, eye);
+    for (const ObjectId object : found_) reveal(object);
     for (const std::uint32_t item : fixed_.of(c)) show(item);
     for (std::uint32_t n = moving_heads_[c]; n != kNone; n = moving_nodes_[n].next)
         show(static_cast<std::uint32_t>(statics_.size()) + moving_nodes_[n].object);
 }
 
 // A cell on an edge of the shell belongs to the face of the first axis.
-void GridPlanner::visit_face(std::size_t face, int shell, const FrameInput& input, const Eye& eye) {
+void GridPlanner::visit_face(std::size_t face, int shell) {
     ShellFace& volume = faces_[face];
-    const int axis = volume.axis(), slab = eye.cell[axis] + volume.sign() * shell;
+    const int axis = volume.axis(), slab = eye_.cell[axis] + volume.sign() * shell;
     const glm::ivec3 n = grid_.cells();
     if (slab < 0 || slab >= n[axis] || (shell > ShellFace::kCutShells && !volume.is_open())) return;
+    press_balls(face, slab);
     const SlabAxes a = volume.axes();
     const int u_reach = a.u < axis ? shell - 1 : shell, v_reach = a.v < axis ? shell - 1 : shell;
-    const int u_first = std::max(0, eye.cell[a.u] - u_reach),
-              u_last = std::min(n[a.u] - 1, eye.cell[a.u] + u_reach);
-    const int v_first = std::max(0, eye.cell[a.v] - v_reach),
-              v_last = std::min(n[a.v] - 1, eye.cell[a.v] + v_reach);
+    const int u_first = std::max(0, eye_.cell[a.u] - u_reach),
+              u_last = std::min(n[a.u] - 1, eye_.cell[a.u] + u_reach);
+    const int v_first = std::max(0, eye_.cell[a.v] - v_reach),
+              v_last = std::min(n[a.v] - 1, eye_.cell[a.v] + v_reach);
+    const ShellFace::Reach reach = volume.reach_at(slab, shell);
     const std::size_t words = (static_cast<std::size_t>(n[a.u]) + 63) / 64;
     const std::span<std::uint64_t> reached(row_.data(), words);
-    for (int v = v_first; u_first <= u_last && v <= v_last; ++v) {
+    if (reach.misses(u_first, u_last, v_first, v_last) && shell > ShellFace::kCutShells) return;
+    for (int v = v_first; v <= v_last; ++v) {
         std::fill(reached.begin(), reached.end(), 0);
-        volume.find_reached(slab, v, u_first, u_last, reached);
+        if (v >= reach.v_first && v <= reach.v_last) volume.find_reached(slab, v, u_first, u_last, reached);
         std::uint64_t* hidden = &slab_[static_cast<std::size_t>(v) * words];
         for (std::size_t w = 0; w < words; ++w) {
             hidden[w] = bits_between(u_first, u_last + 1, w) & ~reached[w];
@@ -379,60 +424,75 @@ void GridPlanner::visit_face(std::size_t face, int shell, const FrameInput& inpu
                 glm::ivec3 cell(slab);
                 cell[a.u] = static_cast<int>(64 * w) + std::countr_zero(rest);
                 cell[a.v] = v;
-                visit_cell(cell, input, eye);
+                visit_cell(cell);
             }
         }
     }
-    if (shell == 0 || !volume.is_open()) return;
-    for (int v = 0; v < n[a.v]; ++v) {
-        const std::span<const std::uint64_t> opaque = occluders_.row(axis, slab, v);
-        const bool tested = u_first <= u_last && v >= v_first && v <= v_last;
-        std::uint64_t* blocked = &slab_[static_cast<std::size_t>(v) * words];
-        for (std::size_t w = 0; w < words; ++w) blocked[w] = (tested ? blocked[w] : 0) | opaque[w];
-    }
-    volume.occlude(slab, {slab_.data(), words * static_cast<std::size_t>(n[a.v])}, words, n[a.u], n[a.v]);
+    block_rays(volume, slab, v_first, v_last);
 }
 
-void GridPlanner::traverse(const FrameInput& input, const Eye& eye) {
-    for (ShellFace& face : faces_) face.begin(eye.position, eye.planes);
+/// `slab_` has what is hidden of rows `v_first` to `v_last`; what is opaque blocks too, in all of the slab.
+void GridPlanner::block_rays(ShellFace& volume, int slab, int v_first, int v_last) {
+    const int u_cells = grid_.cells()[volume.axes().u], v_cells = grid_.cells()[volume.axes().v];
+    const std::size_t words = (static_cast<std::size_t>(u_cells) + 63) / 64;
+    std::uint64_t any = 0;
+    for (int v = 0; v < v_cells; ++v) {
+        const std::span<const std::uint64_t> opaque = occluders_.row(volume.axis(), slab, v);
+        std::uint64_t* blocked = &slab_[static_cast<std::size_t>(v) * words];
+        for (std::size_t w = 0; w < words; ++w) {
+            any |= opaque[w];
+            blocked[w] = (v >= v_first && v <= v_last ? blocked[w] : 0) | opaque[w];
+        }
+    }
+    if (any != 0)
+        volume.occlude(slab, {slab_.data(), words * static_cast<std::size_t>(v_cells)}, words, u_cells,
+                       v_cells);
+}
+
+void GridPlanner::traverse() {
+    for (ShellFace& face : faces_) face.begin(eye_.position, eye_.planes);
     const glm::ivec3 last_cell = grid_.cells() - 1,
-                     last_side = glm::max(glm::abs(eye.cell), glm::abs(last_cell - eye.cell)),
-                     first_side = glm::max(glm::max(-eye.cell, eye.cell - last_cell), glm::ivec3(0));
-    const int last_shell = std::max({last_side.x, last_side.y, last_side.z});
+                     last_side = glm::max(glm::abs(eye_.cell), glm::abs(last_cell - eye_.cell)),
+                     first_side = glm::max(glm::max(-eye_.cell, eye_.cell - last_cell), glm::ivec3(0));
+    last_shell_ = std::max({last_side.x, last_side.y, last_side.z});
     const int first_shell = std::max({first_side.x, first_side.y, first_side.z, 1});
-    if (grid_.holds({eye.cell, eye.cell})) visit_cell(eye.cell, input, eye);
-    for (int shell = first_shell; shell <= last_shell; ++shell) {
+    if (grid_.holds({eye_.cell, eye_.cell})) visit_cell(eye_.cell);
+    for (int shell = first_shell; shell <= last_shell_; ++shell) {
+        shell_ = shell;
         bool open = shell <= ShellFace::kCutShells;
         for (std::size_t face = 0; face < faces_.size(); ++face) {
-            visit_face(face, shell, input, eye);
+            visit_face(face, shell);
             open = open || faces_[face].is_open();
         }
-        if (!open) return;
+        if (!open) break;
     }
+    shell_ = 0;
+    waiting_.clear();
+    std::fill(waiting_heads_.begin(), waiting_heads_.end(), kNone);
 }
 
 // What was seen stays tracked; the rest is hidden from now on.
-void GridPlanner::give_volumes(const FrameInput& input, const Eye& eye) {
+void GridPlanner::give_volumes() {
     for (const ObjectId object : tracked_) {
         const std::size_t item = statics_.size() + index_of(object);
         if ((shown_[item / 64] >> (item % 64) & 1) != 0)
             kept_.push_back(object);
         else
-            give_volume(object, input.object_boxes[index_of(object)], eye);
+            give_volume(object, boxes_[index_of(object)]);
     }
     tracked_.swap(kept_);
     kept_.clear();
     statistics_.volumes = volumes_.size();
 }
 
-void GridPlanner::emit(const FrameInput& input, const Frustum& frustum, FramePlan& plan) {
+void GridPlanner::emit(const Frustum& frustum, FramePlan& plan) {
     for (std::size_t word = 0; word < shown_.size(); ++word)
         for (std::uint64_t rest = shown_[word]; rest != 0; rest &= rest - 1) {
             const std::size_t item = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
             const bool is_static = item < statics_.size();
             const std::size_t object = item - statics_.size();
             PlaneMask mask = frustum.mask;
-            const Aabb& box = is_static ? statics_[item].bounds : input.object_boxes[object];
+            const Aabb& box = is_static ? statics_[item].bounds : boxes_[object];
             if (classify(frustum, box, mask) == Containment::Outside) continue;
             if (is_static)
                 plan.opaque.push_back(statics_[item].range);
@@ -446,16 +506,17 @@ void GridPlanner::plan(const FrameInput& input, FramePlan& plan) {
     RHVIEW_ASSERT(input.object_boxes.size() == objects_.size());
     plan.clear();
     const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
-    const Eye eye = eye_of(input);
-    begin_frame(input, eye);
+    eye_ = eye_of(input);
+    boxes_ = input.object_boxes;
+    begin_frame();
     if (is_perspective(input.culling_view.clip_from_eye_relative())) {
-        traverse(input, eye);
-        give_volumes(input, eye);
+        traverse();
+        give_volumes();
     } else {
         std::fill(shown_.begin(), shown_.end(), ~std::uint64_t{0});
-        shown_.back() >>= (64 - (statics_.size() + objects_.size()) % 64) % 64;
+        if (!shown_.empty()) shown_.back() >>= (64 - (statics_.size() + objects_.size()) % 64) % 64;
     }
-    emit(input, frustum, plan);
+    emit(frustum, plan);
     plan.nodes_visited = statistics_.cells_reached;
 }
 

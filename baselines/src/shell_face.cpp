@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace rhview {
 namespace {
@@ -92,7 +93,17 @@ void ShellFace::begin(const glm::dvec3& eye, std::span<const glm::dvec3> planes)
     open_rows_ = 0;
     first_open_row_ = pixels_;
     end_open_row_ = 0;
+    if (!sees_some(planes)) return;
     for (int row = 0; row < pixels_; ++row) begin_row(row, planes);
+    find_open_pixels();
+}
+
+/// Whether none of the planes has the whole picture outside.
+bool ShellFace::sees_some(std::span<const glm::dvec3> planes) const {
+    return std::all_of(planes.begin(), planes.end(), [&](const glm::dvec3& plane) {
+        const double most = kReach * (std::abs(plane[axes().u]) + std::abs(plane[axes().v]));
+        return plane[axis_] * sign_ + most >= -1e-6;
+    });
 }
 
 // A plane leaves of each row an interval of slopes u: n_u·u + max over the row of n_v·v + n_a·sign >= 0.
@@ -136,25 +147,37 @@ void ShellFace::find_reached(int slab, int v, int u_first, int u_last,
         return;
     }
     std::size_t first_word = words_, end_word = 0;
-    std::fill(all_.begin(), all_.end(), kFull);
     for (int row = std::max(static_cast<int>(first_row), first_open_row_);
          row <= std::min(static_cast<int>(last_row), end_open_row_ - 1); ++row) {
+        if (!is_row_open(row)) continue;
         const OpenWords open = open_[static_cast<std::size_t>(row)];
-        if (open.first == open.end) continue;
+        if (first_word == words_) std::fill(all_.begin(), all_.end(), kFull);
         const std::uint64_t* bits = &bits_[static_cast<std::size_t>(row) * words_];
         for (std::size_t w = open.first; w < open.end; ++w) all_[w] &= bits[w];
         first_word = std::min<std::size_t>(first_word, open.first);
         end_word = std::max<std::size_t>(end_word, open.end);
     }
-    // A cell beside the open words is hidden, unless the picture cuts it off.
-    const double open_low = first_word < end_word ? static_cast<double>(first_word) * 64 : 1e9;
-    const double open_high = first_word < end_word ? static_cast<double>(end_word) * 64 : -1e9;
-    for (int u = u_first; u <= u_last; ++u) {
-        const Slopes columns = slopes_to_cell(u - eye_u_, distance);
-        const double first = pixel_of(columns.low) - kSlack, last = pixel_of(columns.high) + kSlack;
-        const bool cut = first < 0.0 || last >= pixels_;
-        if (!cut && (last < open_low || first >= open_high)) continue;
-        if (cut || !all_set(all_, static_cast<int>(first), static_cast<int>(last) + 1))
+    const double per_far = pixels_per_slope_ / (distance + 1.0), per_near = pixels_per_slope_ / distance;
+    const double middle = kReach * pixels_per_slope_;
+    const auto pixels_of = [&](int u) {
+        const double from = u - eye_u_, end = from + 1.0;
+        return Slopes{middle + from * (from < 0.0 ? per_near : per_far) - kSlack,
+                      middle + end * (end > 0.0 ? per_near : per_far) + kSlack};
+    };
+    // Only the ends of the row may be cut off; in between, what is beside the open words is hidden.
+    if (pixels_of(u_first).low < 0.0 || pixels_of(u_last).high >= pixels_) {
+        for (int u = u_first; u <= u_last; ++u)
+            if (pixels_of(u).low < 0.0 || pixels_of(u).high >= pixels_) set_bits(reached, u, u + 1);
+    }
+    if (first_word >= end_word) return;
+    const double low = static_cast<double>(first_word) * 64 - middle,
+                 high = static_cast<double>(end_word) * 64 - middle;
+    const int first = clamp_to_int(eye_u_ + low / (low < 0.0 ? per_far : per_near) - 2.0, u_first, u_last);
+    const int last = clamp_to_int(eye_u_ + high / (high > 0.0 ? per_far : per_near) + 2.0, u_first, u_last);
+    for (int u = first; u <= last; ++u) {
+        const Slopes pixels = pixels_of(u);
+        if (pixels.low < 0.0 || pixels.high >= pixels_) continue;
+        if (!all_set(all_, static_cast<int>(pixels.low), static_cast<int>(pixels.high) + 1))
             reached[static_cast<std::size_t>(u) / 64] |= std::uint64_t{1} << (u % 64);
     }
 }
@@ -216,12 +239,82 @@ void ShellFace::occlude(int slab, std::span<const std::uint64_t> blocked, std::s
         }
         if (any) press_stamp(row);
     }
-    while (first_open_row_ < end_open_row_ && open_[static_cast<std::size_t>(first_open_row_)].first ==
-                                                  open_[static_cast<std::size_t>(first_open_row_)].end)
-        ++first_open_row_;
-    while (first_open_row_ < end_open_row_ && open_[static_cast<std::size_t>(end_open_row_ - 1)].first ==
-                                                  open_[static_cast<std::size_t>(end_open_row_ - 1)].end)
-        --end_open_row_;
+    trim_open_rows();
+    find_open_pixels();
+}
+
+void ShellFace::trim_open_rows() {
+    while (first_open_row_ < end_open_row_ && !is_row_open(first_open_row_)) ++first_open_row_;
+    while (first_open_row_ < end_open_row_ && !is_row_open(end_open_row_ - 1)) --end_open_row_;
+}
+
+void ShellFace::find_open_pixels() {
+    int first = pixels_, end = 0;
+    for (int row = first_open_row_; row < end_open_row_; ++row) {
+        if (!is_row_open(row)) continue;
+        first = std::min(first, 64 * open_[static_cast<std::size_t>(row)].first);
+        end = std::max(end, 64 * open_[static_cast<std::size_t>(row)].end);
+    }
+    first_open_pixel_ = first;
+    end_open_pixel_ = end;
+}
+
+ShellFace::Reach ShellFace::reach_at(int slab, int shell) const {
+    constexpr int kAll = 1 << 28;
+    const double distance = distance_to(slab);
+    if (shell <= kCutShells || distance < kSlack) return {-kAll, kAll, -kAll, kAll};
+    const auto first = [&](double eye, int pixel) {
+        const double slope = slope_of(pixel);
+        return static_cast<int>(
+                   std::floor(eye + slope * (slope < 0.0 ? distance + 1.0 : distance) - kSlack)) -
+               1;
+    };
+    const auto last = [&](double eye, int pixel) {
+        const double slope = slope_of(pixel);
+        return static_cast<int>(
+                   std::floor(eye + slope * (slope > 0.0 ? distance + 1.0 : distance) + kSlack)) +
+               1;
+    };
+    return {first(eye_u_, first_open_pixel_), last(eye_u_, end_open_pixel_), first(eye_v_, first_open_row_),
+            last(eye_v_, end_open_row_)};
+}
+
+// A ray along d meets the ball if dot(d, c)^2 >= |d|^2 (|c|^2 - r^2) and dot(d, c) > 0: in a row, for the
+// slopes u between the roots of a quadratic. The outline is convex: a pixel lies inside if its corners do.
+void ShellFace::occlude_ball(const glm::dvec3& centre, double radius, const glm::dvec3& cell_size) {
+    const SlabAxes a = axes();
+    const double c_u = centre[a.u], c_v = centre[a.v], c_a = centre[axis_] * sign_;
+    const double s_u = cell_size[a.u], s_v = cell_size[a.v], s_a = cell_size[axis_];
+    const double k = glm::dot(centre, centre) - radius * radius;
+    if (c_a <= radius || k <= c_u * c_u || k <= c_v * c_v) return;
+    const double square = s_u * s_u * (c_u * c_u - k);
+    const auto between = [&](double v) -> Slopes {
+        const double rest = v * s_v * c_v + s_a * c_a, half = s_u * c_u * rest;
+        const double constant = rest * rest - (v * v * s_v * s_v + s_a * s_a) * k;
+        const double root = half * half - square * constant;
+        if (root <= 0.0) return {1.0, -1.0};
+        const double low = (-half + std::sqrt(root)) / square, high = (-half - std::sqrt(root)) / square;
+        if (0.5 * (low + high) * s_u * c_u + rest <= 0.0) return {1.0, -1.0};
+        return {low, high};
+    };
+    const double v_low = (c_v - radius) / s_v / ((c_v < radius ? c_a - radius : c_a + radius) / s_a);
+    const double v_high = (c_v + radius) / s_v / ((c_v > -radius ? c_a - radius : c_a + radius) / s_a);
+    const int first_row = clamp_to_int(pixel_of(v_low) - 1.0, first_open_row_, end_open_row_);
+    const int end_row = clamp_to_int(pixel_of(v_high) + 2.0, first_open_row_, end_open_row_);
+    Slopes before = between(slope_of(first_row));
+    for (int row = first_row; row < end_row; ++row) {
+        const Slopes after = between(slope_of(row + 1));
+        const double low = std::max(before.low, after.low), high = std::min(before.high, after.high);
+        const bool both = before.low < before.high && after.low < after.high && low < high;
+        before = after;
+        if (!both || !is_row_open(row)) continue;
+        const int first = clamp_to_int(std::ceil(pixel_of(low) + kSlack), 0, pixels_);
+        const int end = clamp_to_int(std::floor(pixel_of(high) - kSlack), 0, pixels_);
+        if (first >= end) continue;
+        set_bits({&bits_[static_cast<std::size_t>(row) * words_], words_}, first, end);
+        shrink(row);
+    }
+    trim_open_rows();
 }
 
 }  // namespace rhview

@@ -135,7 +135,7 @@ struct Gathered {
     float lowest_y = std::numeric_limits<float>::infinity();
 };
 
-Gathered gather(std::span<const TriangleBatch> batches, std::span<const bool> occludes) {
+Gathered gather(std::span<const TriangleBatch> batches, const std::vector<bool>& occludes) {
     Gathered result;
     for (std::size_t b = 0; b < batches.size(); ++b)
         for (std::size_t i = 0; i + 2 < batches[b].indices.size(); i += 3) {
@@ -178,7 +178,7 @@ CellLists make_cell_lists(std::size_t cell_count, std::span<const CellEntry> ent
 }
 
 SolidCells find_solid_cells(const CellGrid& grid, std::span<const TriangleBatch> batches,
-                            std::span<const bool> occludes) {
+                            const std::vector<bool>& occludes) {
     const Gathered all = gather(batches, occludes);
     ClosedSurfaces surfaces = find_closed_surfaces(all.corners, all.joins, all.lowest_y);
     std::vector<CellEntry> entries;
@@ -236,8 +236,7 @@ double triangle_distance(const glm::dvec3& p, const Triangle& t) {
 float enclosed_radius(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
                       const glm::vec3& centre) {
     const TriangleBatch batch{MaterialId{}, positions, indices, false};
-    const bool occludes = true;
-    const Gathered all = gather({&batch, 1}, {&occludes, 1});
+    const Gathered all = gather({&batch, 1}, {true});
     const ClosedSurfaces surfaces =
         find_closed_surfaces(all.corners, all.joins, -std::numeric_limits<float>::infinity());
     double least = std::numeric_limits<double>::infinity(), angle = 0.0;

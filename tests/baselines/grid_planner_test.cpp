@@ -118,8 +118,9 @@ TEST(GridPlanner, costs_nothing_for_what_is_hidden_until_its_volume_is_over) {
         renewed += planner.statistics().volumes_renewed;
         world.move();
     }
-    // Periods of 8, 16, 32, 64 … frames: three ends within 100 frames.
-    EXPECT_EQ(renewed, 3 * world.balls.size());
+    // Periods of up to 8, 16, 32, 64 … frames, and no less than half of that.
+    EXPECT_GE(renewed, 3 * world.balls.size());
+    EXPECT_LE(renewed, 4 * world.balls.size());
 }
 
 TEST(GridPlanner, plans_twice_the_same_and_allocates_nothing_after_warm_up) {
@@ -200,10 +201,9 @@ class BehindAWall : public testing::Test {
   protected:
     [[nodiscard]] GridPlanner planner(bool occludes = true) const {
         const std::array<TriangleBatch, 2> batches{wall_.batch(), thing_.batch()};
-        const std::array<bool, 2> flags{occludes, true};
+        const std::vector<bool> flags{occludes, true};
         const Aabb bounds{glm::vec3(0.0f), glm::vec3(30.0f)};
-        batches_ = batches;
-        return {batches_,
+        return {batches,
                 flags,
                 {{{BatchId{0}, 0, 36}, wall_.bounds()}, {{BatchId{1}, 36, 36}, thing_.bounds()}},
                 {},
@@ -218,7 +218,6 @@ class BehindAWall : public testing::Test {
 
     BoxMesh wall_{glm::vec3(9.5f, 2.0f, 2.0f), glm::vec3(12.5f, 28.0f, 28.0f)};
     BoxMesh thing_{glm::vec3(20.0f, 14.0f, 14.0f), glm::vec3(22.0f, 16.0f, 16.0f)};
-    mutable std::array<TriangleBatch, 2> batches_;
 };
 
 using Items = std::vector<std::uint32_t>;
@@ -249,7 +248,7 @@ TEST_F(BehindAWall, a_thing_is_drawn_where_the_near_plane_cuts_the_wall) {
 TEST_F(BehindAWall, a_wall_with_one_triangle_less_hides_nothing) {
     wall_.indices.resize(33);
     const std::array<TriangleBatch, 2> batches{wall_.batch(), thing_.batch()};
-    const std::array<bool, 2> flags{true, true};
+    const std::vector<bool> flags{true, true};
     GridPlanner grid(batches, flags,
                      {{{BatchId{0}, 0, 33}, wall_.bounds()}, {{BatchId{1}, 33, 36}, thing_.bounds()}}, {},
                      with_cells({30, 30, 30}, {glm::vec3(0.0f), glm::vec3(30.0f)}));

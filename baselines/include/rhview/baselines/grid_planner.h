@@ -43,6 +43,9 @@ struct GridOptions {
     Aabb bounds;  ///< empty: of everything. What moves out of it is only tested against the frustum
     bool nothing_leaves = false;  ///< the caller's promise: then volumes may end at the bounds
     int face_pixels = 1024;       ///< resolution of an occlusion volume's cross-section, a multiple of 64
+    /// Besides opaque cells, objects' inner balls end rays as a whole, once the traversal is past them:
+    /// fusion in the image, which the thesis names as its future work. False: its method as published.
+    bool fuses_balls = true;
 };
 
 /// What the last plan did.
@@ -56,9 +59,9 @@ struct GridStatistics {
 
 class GridPlanner final : public FramePlanner {
   public:
-    /// `batches` (read while it is built, and again near the eye: they outlive it) hold the triangles of
-    /// `statics`, in order, and nothing else. `occludes[b]`: whether batch b has no holes (alpha test).
-    GridPlanner(std::span<const TriangleBatch> batches, std::span<const bool> occludes,
+    /// `batches` hold the triangles of `statics`, in order, and nothing else; their arrays outlive it.
+    /// `occludes[b]`: whether batch b has no holes (alpha test). Cost: that of `find_solid_cells`.
+    GridPlanner(std::span<const TriangleBatch> batches, const std::vector<bool>& occludes,
                 std::vector<GridStatic> statics, std::vector<GridObject> objects, const GridOptions& options);
 
     void plan(const FrameInput& input, FramePlan& plan) override;
@@ -76,6 +79,12 @@ class GridPlanner final : public FramePlanner {
         double near_reach = 0.0;             ///< metres: nothing nearer is shown for certain
         std::array<glm::dvec3, 4> planes{};  ///< of the view's sides, through the eye
     };
+    /// A ball that was reached, in the list of the slab of a face that it lies before.
+    struct WaitingBall {
+        glm::dvec3 centre{0.0};  ///< from the eye, metres
+        double radius = 0.0;
+        std::uint32_t next = 0;
+    };
     struct ObjectNode {
         std::uint32_t object = 0;
         std::uint32_t next = 0;
@@ -88,27 +97,30 @@ class GridPlanner final : public FramePlanner {
 
     [[nodiscard]] std::array<glm::dvec3, 3> corners_of(std::uint32_t triangle) const;
 
-    void begin_frame(const FrameInput& input, const Eye& eye);
+    void begin_frame();
     void restore_occluders();
     void drop_owner(std::uint32_t owner);
-    void drop_near_surfaces(const Eye& eye);
-    void drop_surfaces_around(const Eye& eye);
-    void renew_expired(const FrameInput& input, const Eye& eye);
-    void reveal(ObjectId object, const FrameInput& input, const Eye& eye);
-    void discretise(ObjectId object, const FrameInput& input, const Eye& eye);
-    void add_occluder(const GridObject& object, const Aabb& box, const Eye& eye);
-    void give_volume(ObjectId object, const Aabb& box, const Eye& eye);
-    void give_volumes(const FrameInput& input, const Eye& eye);
+    void drop_near_surfaces();
+    void drop_surfaces_around();
+    void renew_expired();
+    void reveal(ObjectId object);
+    void discretise(ObjectId object);
+    void add_occluder(const GridObject& object, const Aabb& box);
+    void give_volume(ObjectId object, const Aabb& box);
+    void give_volumes();
 
-    void traverse(const FrameInput& input, const Eye& eye);
-    void visit_face(std::size_t face, int shell, const FrameInput& input, const Eye& eye);
-    void visit_cell(const glm::ivec3& cell, const FrameInput& input, const Eye& eye);
+    void traverse();
+    void visit_face(std::size_t face, int shell);
+    void block_rays(ShellFace& volume, int slab, int v_first, int v_last);
+    void visit_cell(const glm::ivec3& cell);
     void show(std::uint32_t item);
-    void emit(const FrameInput& input, const Frustum& frustum, FramePlan& plan);
+    void await_ball(std::uint32_t object);
+    void press_balls(std::size_t face, int slab);
+    void emit(const Frustum& frustum, FramePlan& plan);
 
     std::vector<GridStatic> statics_;  ///< items, followed by the objects
     std::vector<GridObject> objects_;
-    std::span<const TriangleBatch> batches_;
+    std::vector<TriangleBatch> batches_;
     bool nothing_leaves_;
     std::vector<std::uint32_t> batch_first_triangle_;
     CellGrid grid_;
@@ -132,6 +144,15 @@ class GridPlanner final : public FramePlanner {
     std::vector<ObjectId> found_;              ///< scratch
     std::vector<ObjectId> kept_;               ///< scratch
     std::vector<std::pair<std::uint32_t, int>> windings_;  ///< scratch: of surfaces around the eye
+
+    bool fuses_balls_;
+    std::span<const Aabb> boxes_;  ///< of the objects, while a plan is made
+    Eye eye_;
+    std::vector<std::uint32_t> waiting_heads_;  ///< by face and slab
+    std::vector<WaitingBall> waiting_;
+    int shell_ = 0;  ///< that the traversal is in
+    int last_shell_ = 0;
+    std::size_t longest_axis_ = 0;
 
     std::vector<ShellFace> faces_;      ///< -x, +x, -y, +y, -z, +z
     std::vector<std::uint64_t> slab_;   ///< scratch: what blocks rays, by row

@@ -43,6 +43,18 @@ class ShellFace {
     /// Whether a ray is left.
     [[nodiscard]] bool is_open() const { return open_rows_ > 0; }
 
+    /// Cells that a ray may reach in a slab, of those that the picture does not cut off.
+    struct Reach {
+        int u_first = 0, u_last = -1;
+        int v_first = 0, v_last = -1;
+
+        [[nodiscard]] bool misses(int u0, int u1, int v0, int v1) const {
+            return u_first > u1 || u_last < u0 || v_first > v1 || v_last < v0;
+        }
+    };
+    /// Everything where the picture may cut cells off.
+    [[nodiscard]] Reach reach_at(int slab, int shell) const;
+
     /// Cells [u_first, u_last] of row `v` of a slab that rays may reach: sets their bits in `reached`, which
     /// is clear. Cells beyond the picture may always be reached.
     void find_reached(int slab, int v, int u_first, int u_last, std::span<std::uint64_t> reached) const;
@@ -51,6 +63,11 @@ class ShellFace {
     /// v of the grid.
     void occlude(int slab, std::span<const std::uint64_t> blocked, std::size_t row_words, int u_cells,
                  int v_cells);
+
+    /// Rays end that meet the ball about `centre` (from the eye, metres, as is `radius`); `cell_size` is that
+    /// of the grid. The ball lies before the slabs that come next. Nothing happens where it reaches the slab
+    /// of the eye, or is so near that its outline is not an ellipse.
+    void occlude_ball(const glm::dvec3& centre, double radius, const glm::dvec3& cell_size);
 
   private:
     /// Words of a row that are not full.
@@ -63,11 +80,17 @@ class ShellFace {
     [[nodiscard]] double distance_to(int slab) const;
     [[nodiscard]] double pixel_of(double slope) const { return (slope + kReach) * pixels_per_slope_; }
     [[nodiscard]] double slope_of(int pixel) const { return pixel / pixels_per_slope_ - kReach; }
+    [[nodiscard]] bool sees_some(std::span<const glm::dvec3> planes) const;
     void begin_row(int row, std::span<const glm::dvec3> planes);
     /// The pixels of a row covered by the cells set in all of `blocked`'s rows from `v_first` to `v_last`.
     bool make_stamp(double distance, std::span<const std::uint64_t> blocked, std::size_t row_words,
                     int u_cells, int v_first, int v_last);
     void press_stamp(int row);
+    void trim_open_rows();
+    void find_open_pixels();
+    [[nodiscard]] bool is_row_open(int row) const {
+        return open_[static_cast<std::size_t>(row)].first != open_[static_cast<std::size_t>(row)].end;
+    }
     void shrink(int row);
 
     int axis_;
@@ -79,6 +102,8 @@ class ShellFace {
     int open_rows_ = 0;
     int first_open_row_ = 0;
     int end_open_row_ = 0;
+    int first_open_pixel_ = 0;  ///< of any row, as are its last ones; no less
+    int end_open_pixel_ = 0;
     std::vector<std::uint64_t> bits_;
     std::vector<OpenWords> open_;
     std::vector<std::uint64_t> stamp_;

@@ -66,7 +66,7 @@ struct SolidCells {
 /// surface winds around it counter-clockwise, seen from outside. Batches that do not occlude enclose nothing.
 /// Triangles in all: below 2^32 / 3. Cost: about 1 µs and 120 bytes per triangle while it runs.
 SolidCells find_solid_cells(const CellGrid& grid, std::span<const TriangleBatch> batches,
-                            std::span<const bool> occludes);
+                            const std::vector<bool>& occludes);
 
 /// Radius of the ball about `centre` that lies inside a mesh: 0 if the mesh is not closed, or the centre is
 /// not inside. Rounded down. Cost: as `find_solid_cells` for its triangles.
