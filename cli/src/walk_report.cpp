@@ -54,6 +54,27 @@ Json missing_pixels_json(const WalkReport& report) {
             {"checked_frames", report.checked_frames()}};
 }
 
+Json reveal_frames_json(const WalkReport& report) {
+    if (!report.reveal_frames) return nullptr;
+    if (report.reveal_frames->empty()) return {{"items", 0}};
+    const Statistics s = summarise(*report.reveal_frames);
+    return {{"items", report.reveal_frames->size()},
+            {"mean", s.mean},
+            {"median", s.median},
+            {"p95", s.p95},
+            {"max", s.max}};
+}
+
+std::string reveal_frames_line(const WalkReport& report) {
+    if (!report.reveal_frames) return "";
+    if (report.reveal_frames->empty()) return "  nothing that is seen was left out\n";
+    const Statistics s = summarise(*report.reveal_frames);
+    return fmt::format(
+        "  left out though seen: {} times a leaf or object, for {:.0f} frame{} in the median, {:.0f} at p95, "
+        "{:.0f} at most\n",
+        report.reveal_frames->size(), s.median, s.median == 1.0 ? "" : "s", s.p95, s.max);
+}
+
 /// |predicted - measured| / measured.
 template <class Field>
 Statistics prediction_errors(const WalkReport& report, Field predicted_ms) {
@@ -192,6 +213,7 @@ Json summary_json(const WalkReport& report) {
                       : Json(nullptr);
     summary["lod_error_px"] = nullptr;
     summary["missing_pixels"] = missing_pixels_json(report);
+    summary["reveal_frames"] = reveal_frames_json(report);
     summary["plan_hash"] = fmt::format("{:016x}", report.plan_hash);
     return summary;
 }
@@ -318,7 +340,8 @@ std::string to_json(const WalkReport& report) {
                                      {"predicted_ms", or_null(f.predicted_ms)},
                                      {"running_predicted_ms", or_null(f.running_predicted_ms)},
                                      {"visible_set_indices", or_null(f.visible_set_indices)},
-                                     {"missing_pixels", or_null(f.missing_pixels)}});
+                                     {"missing_pixels", or_null(f.missing_pixels)},
+                                     {"late_items", or_null(f.late_items)}});
     // A file name need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -326,13 +349,14 @@ std::string to_json(const WalkReport& report) {
 std::string to_csv(const WalkReport& report) {
     std::string csv =
         "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels,predicted_"
-        "ms\n";
+        "ms,queries\n";
     for (const FrameRecord& f : report.frames) {
-        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{}\n", f.frame, count(f.work.draw_calls),
-                           count(f.work.sub_draws), count(f.work.indices), f.nodes_visited, f.cull_ms,
-                           f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
-                           f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
-                           f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "");
+        csv +=
+            fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{},{}\n", f.frame, count(f.work.draw_calls),
+                        count(f.work.sub_draws), count(f.work.indices), f.nodes_visited, f.cull_ms,
+                        f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
+                        f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
+                        f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "", count(f.work.queries));
     }
     return csv;
 }
@@ -406,6 +430,7 @@ std::string to_table(const WalkReport& report) {
     if (const int checked = report.checked_frames(); checked > 0)
         table += fmt::format("  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
                              checked == 1 ? "" : "s");
+    table += reveal_frames_line(report);
     return table;
 }
 

@@ -43,6 +43,7 @@ struct FrameRecord {
     std::optional<OcclusionRecord> occlusion;
     std::optional<std::uint64_t> visible_set_indices;  ///< of the leaves that show a pixel
     std::optional<std::uint64_t> missing_pixels;
+    std::optional<std::uint64_t> late_items;  ///< leaves and objects that lack a pixel; latent mode
 };
 
 /// One method along one path: the run of `rhview.walk/1`.
@@ -86,6 +87,9 @@ struct WalkReport {
     std::string why_no_occlusion;           ///< where it was wanted and could not be
     std::uint64_t blocking_reads = 0;       ///< of answers, in the whole walk
     std::uint64_t lost_queries = 0;
+    /// Frames for which leaves and objects lacked a pixel, once each time that one did; absent where not
+    /// every frame of latent mode was checked.
+    std::optional<std::vector<double>> reveal_frames;
     std::string method;
     std::string mode;
     std::string submission;

@@ -10,6 +10,7 @@
 #include "frame_pictures.h"
 #include "method.h"
 #include "occlusion_choice.h"
+#include "reveal_delays.h"
 #include "rhview/gl/item_buffer.h"
 #include "rhview/gl/timer.h"
 #include "rhview/gl/work_counter.h"
@@ -105,7 +106,7 @@ class WalkSession::Impl {
             if (record.frame_ms > query_ms) running_->observe({draws, 1e6 * (record.frame_ms - query_ms)});
         }
         report_.plan_hash = plan_hash(plan_, report_.plan_hash);
-        if (items_) record.visible_set_indices = visible_set_indices(frame);
+        if (options_.visible_set) record.visible_set_indices = visible_set_indices(frame);
         const bool checked = options_.check && frame % options_.check_every == 0;
         const bool pictured = options_.images && frame % options_.images_every == 0;
         if (checked || pictured)
@@ -116,6 +117,7 @@ class WalkSession::Impl {
     }
 
     Status finish() {
+        if (delays_) report_.reveal_frames = delays_->frames();
         report_.blocking_reads = executor_->answer_counters().blocking_reads;
         report_.lost_queries = executor_->answer_counters().lost;
         const std::string error = gl::take_error();
@@ -175,7 +177,9 @@ class WalkSession::Impl {
         if (timer->gpu_timer_is_whole()) gpu_timer_.emplace();
         work_counter_.emplace();
         report_.device.timer = gpu_timer_ ? "gpu" : "wall";
-        if (options_.visible_set) {
+        const bool times_delays = options_.mode == "latent" && options_.check && options_.check_every == 1;
+        if (times_delays) delays_.emplace(method_.octree->nodes().size() + scene_.object_count());
+        if (options_.visible_set || times_delays) {
             Result<gl::ItemBuffer> items = gl::ItemBuffer::create(size.width, size.height);
             if (!items) return Error{"--size: " + items.error().message};
             items_.emplace(std::move(items).value());
@@ -313,6 +317,11 @@ class WalkSession::Impl {
         target_->read_depth(reference_depths_);
         const std::size_t missing = gl::count_missing_pixels(culled_depths_, reference_depths_);
         if (checked) record.missing_pixels = missing;
+        if (checked && delays_)
+            record.late_items = delays_->add_frame(
+                items_->item_pixels(leaves_, static_cast<std::uint32_t>(method_.octree->nodes().size()),
+                                    *buffers_, view),
+                culled_depths_, reference_depths_);
         if (!pictured) return success();
 
         gl::Picture reference = target_->read_colour();
@@ -358,6 +367,7 @@ class WalkSession::Impl {
     std::optional<ViewFromAbove> above_;
     std::optional<gl::ItemBuffer> items_;
     std::vector<gl::ItemRange> leaves_;
+    std::optional<RevealDelays> delays_;
     FramePlan plan_;
     std::vector<QueryAnswer> answers_;  ///< to the queries of the frame before
     FramePlan everything_;

@@ -69,6 +69,15 @@ TEST_F(Walk, latent_mode_tells_what_it_misses_and_is_no_failed_check) {
         walk_json("city:blocks=6 --frames 12 --warmup 4 --size 200x120 --check --mode latent" + kPrices);
     EXPECT_EQ(walk["mode"], "latent");
     EXPECT_TRUE(walk["summary"]["missing_pixels"]["total"].is_number());
+    // Whoever lacked a pixel in some frame is told by the frames for which it did.
+    double late_frames = 0.0;
+    for (const nlohmann::json& frame : walk["per_frame"]) {
+        EXPECT_EQ(frame["late_items"] > 0, frame["missing_pixels"] > 0);
+        late_frames += frame["late_items"].get<double>();
+    }
+    EXPECT_GT(late_frames, 0.0);
+    const nlohmann::json& reveals = walk["summary"]["reveal_frames"];
+    EXPECT_NEAR(reveals["mean"].get<double>() * reveals["items"].get<double>(), late_frames, 1e-6);
 }
 
 TEST_F(Walk, without_a_price_of_a_query_nothing_is_asked) {
