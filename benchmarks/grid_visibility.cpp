@@ -148,6 +148,8 @@ class ExactSet {
         const glm::dvec3 to = ball.centre - view.eye();
         const double reach2 = glm::dot(to, to) - ball.radius * ball.radius;
         if (reach2 <= 0.0) return;
+        const double depth = (view.clip_from_eye_relative() * glm::dvec4(to, 1.0)).w;
+        if (depth + ball.radius < kNear) return;
         // A box of points around the ball: its corners, where they are all before the eye.
         int x0 = 0, x1 = kWidth - 1, y0 = 0, y1 = kHeight - 1;
         bound(to, ball.radius, view, x0, x1, y0, y1);

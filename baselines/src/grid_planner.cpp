@@ -410,6 +410,7 @@ void GridPlanner::visit_face(std::size_t face, int shell) {
               u_last = std::min(n[a.u] - 1, eye_.cell[a.u] + u_reach);
     const int v_first = std::max(0, eye_.cell[a.v] - v_reach),
               v_last = std::min(n[a.v] - 1, eye_.cell[a.v] + v_reach);
+    if (u_first > u_last || v_first > v_last) return block_rays(volume, slab, 0, -1);
     const ShellFace::Reach reach = volume.reach_at(slab, shell);
     const std::size_t words = (static_cast<std::size_t>(n[a.u]) + 63) / 64;
     const std::span<std::uint64_t> reached(row_.data(), words);

@@ -3,6 +3,7 @@
 
 #include "method.h"
 
+#include "grid_method.h"
 #include "rhview/baselines/draw_everything.h"
 #include "rhview/baselines/frustum_objects.h"
 #include "rhview/baselines/octree_leaves.h"
@@ -47,7 +48,7 @@ OctreeOptions octree_options_of(std::string_view method, const Scene& scene, con
 }
 
 std::vector<std::string> method_names() {
-    return {"none", "frustum", "octree", "rhview-seed", "rhview"};
+    return {"none", "frustum", "grid", "octree", "rhview-seed", "rhview"};
 }
 
 std::span<const std::uint32_t> PreparedMethod::static_indices() const {
@@ -70,6 +71,12 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
     }
     if (method == "frustum") {
         prepared.planner = std::make_unique<FrustumObjects>(static_objects(scene));
+        return prepared;
+    }
+    if (method == "grid") {
+        const gl::WallTimer timer;
+        prepared.planner = make_grid_method(scene);
+        prepared.build_ms = timer.elapsed_ms();
         return prepared;
     }
     if (baked != nullptr) {
