@@ -26,7 +26,8 @@ Status check_options(const WalkOptions& options) {
     if (std::ranges::find(ways, options.occlusion) == ways.end())
         return Error{
             fmt::format("--occlusion {}: unknown; write {}", options.occlusion, fmt::join(ways, ", "))};
-    if (options.visible_set && (options.method == "none" || options.method == "frustum" || options.method == "grid"))
+    if (options.visible_set &&
+        (options.method == "none" || options.method == "frustum" || options.method == "grid"))
         return Error{fmt::format("--visible-set: {} has no octree; choose another --method", options.method)};
     if (options.mode == "latent" && (options.method != "rhview" || options.occlusion == "off"))
         return Error{"--mode latent: needs --method rhview, and no --occlusion off"};
