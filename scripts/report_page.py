@@ -22,17 +22,18 @@ h1 { font-size: 1.6rem; line-height: 1.2; margin: .2rem 0; } h2 { font-size: 1.1
 p { margin: .4rem 0; } .faint { color: var(--faint); font-size: .9rem; }
 .verdict { border-left: 4px solid var(--s0); padding: .5rem .9rem; background: var(--card); margin: 1rem 0; }
 img { width: 100%; height: auto; border-radius: 6px; display: block; }
-.scroll { overflow-x: auto; } table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
-th, td { padding: .35rem .6rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
+.scroll { overflow-x: auto; } table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .35rem .5rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
 th:first-child, td:first-child { text-align: left; } th { font-weight: 600; font-size: .85rem; color: var(--faint); }
 .plots { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); }
 figure { margin: 0; padding: .7rem; background: var(--card); border-radius: 6px; min-width: 0; }
+td:first-child { overflow-wrap: anywhere; white-space: normal; min-width: 7rem; }
 figcaption { font-weight: 600; font-size: .95rem; margin-bottom: .3rem; }
 svg { width: 100%; height: auto; display: block; } svg text { fill: var(--faint); font: 12px system-ui, sans-serif; }
 .grid { stroke: var(--line); stroke-width: 1; fill: none; } .series { fill: none; stroke-width: 1.7; stroke-linejoin: round; }
 .legend { display: flex; flex-wrap: wrap; gap: .2rem 1.1rem; margin: .6rem 0; font-size: .92rem; }
 .legend svg { width: 1.8rem; height: .7rem; display: inline-block; margin-right: .4rem; }
-pre { background: var(--card); padding: .7rem; overflow-x: auto; border-radius: 6px; font-size: .85rem; }
+pre { background: var(--card); padding: .7rem; white-space: pre-wrap; overflow-wrap: anywhere; border-radius: 6px; font-size: .85rem; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .15rem 1rem; margin: 0; } dt { color: var(--faint); } dd { margin: 0; }
 """
 
@@ -174,7 +175,7 @@ def interval_text(interval, digits=3):
 def table_of(page):
     reference = page["reference"]
     heads = ["method", "frame ms", "95 % interval", f"× {reference}", "95 % interval", "cull ms", "draw calls", "indices",
-             "queries", "predicted ms", "missing pixels"]
+             "queries", "predicted ms", "missing px"]
     rows = []
     for run, compared in zip(page["runs"], page["comparison"]):
         summary = run["summary"]
@@ -184,7 +185,7 @@ def table_of(page):
                  f'{ratio["median"]:.3f}' if ratio else "–",
                  "–" if run["label"] == reference else interval_text(ratio), f'{summary["cull_ms"]["median"]:.3f}',
                  median("draw_calls"), median("indices"), median("queries"), median("predicted_ms"),
-                 "not checked" if missing is None else f'{missing["total"]} in {missing["checked_frames"]} frames']
+                 "not checked" if missing is None else str(missing["total"])]
         rows.append("<tr>" + "".join(f"<td>{text_of(c)}</td>" for c in cells) + "</tr>")
     head = "".join(f"<th>{text_of(h)}</th>" for h in heads)
     return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
+#include <vector>
 
 #include "compare_report.h"
 #include "method_list.h"
@@ -62,7 +62,14 @@ struct Outputs {
     }
 };
 
-/// The methods, validated; the first one makes the report's picture.
+/// What ratios refer to: rhview, else the first method.
+std::size_t reference_of(const std::vector<ListedMethod>& methods) {
+    const auto found =
+        std::ranges::find(methods, "rhview", [](const ListedMethod& method) { return method.walk.method; });
+    return found == methods.end() ? 0 : static_cast<std::size_t>(found - methods.begin());
+}
+
+/// The methods, validated; the reference makes the report's picture.
 Result<std::vector<ListedMethod>> list_methods(const CompareOptions& options) {
     if (options.order != "frame" && options.order != "run")
         return Error{fmt::format("--order {}: unknown; write frame or run", options.order)};
@@ -72,9 +79,9 @@ Result<std::vector<ListedMethod>> list_methods(const CompareOptions& options) {
         if (const Result<WalkWishes> wishes = parse_wishes(method.walk); !wishes)
             return Error{fmt::format("--methods {}: {}", method.label, wishes.error().message)};
     if (options.report) {
-        WalkOptions& first = methods->front().walk;
-        first.images = *options.report / kPicture;
-        first.images_every = std::max(1, first.frames / 3);
+        WalkOptions& pictured = (*methods)[reference_of(*methods)].walk;
+        pictured.images = *options.report / kPicture;
+        pictured.images_every = std::max(1, pictured.frames / 3);
     }
     return methods;
 }
@@ -113,9 +120,7 @@ CompareReport report_of(const CompareOptions& options, const std::vector<ListedM
     CompareReport report;
     for (std::size_t i = 0; i < methods.size(); ++i)
         report.runs.push_back({methods[i].label, &sessions[i].report()});
-    const auto is_rhview = [](const ListedMethod& method) { return method.walk.method == "rhview"; };
-    const auto reference = std::ranges::find_if(methods, is_rhview);
-    report.reference = reference == methods.end() ? 0 : static_cast<std::size_t>(reference - methods.begin());
+    report.reference = reference_of(methods);
     report.by_frame = options.order == "frame";
     report.command = options.command;
     return report;

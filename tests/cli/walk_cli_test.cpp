@@ -24,7 +24,7 @@ TEST_P(EveryMethod, misses_no_pixel_on_small_scenes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
-                         testing::Values("none", "frustum", "octree", "rhview-seed", "rhview"),
+                         testing::Values("none", "frustum", "grid", "octree", "rhview-seed", "rhview"),
                          [](const auto& test) {
                              std::string name = test.param;
                              std::ranges::replace(name, '-', '_');
