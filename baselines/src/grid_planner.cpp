@@ -518,6 +518,7 @@ void GridPlanner::plan(const FrameInput& input, FramePlan& plan) {
         if (!shown_.empty()) shown_.back() >>= (64 - (statics_.size() + objects_.size()) % 64) % 64;
     }
     emit(frustum, plan);
+    sorter_.sort(input.object_groups, plan);
     plan.nodes_visited = statistics_.cells_reached;
 }
 

@@ -9,6 +9,9 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "method.h"
+#include "rhview/scenes/object_motion.h"
+
 namespace rhview::cli {
 namespace {
 
@@ -78,7 +81,15 @@ GridObject object_of(const glm::dmat4& placement, const glm::vec3& mesh_centre, 
     return object;
 }
 
-std::vector<GridObject> objects_of(const Scene& scene) {
+/// How far a face of the object's box goes from one plan to the next at most.
+float step_of(const Scene& scene, ObjectId object, double frame_seconds) {
+    const double speed = top_speed(scene, object);
+    if (speed == 0.0) return 0.0f;
+    return frame_seconds > 0.0 ? static_cast<float>(1.001 * speed * frame_seconds)
+                               : std::numeric_limits<float>::infinity();
+}
+
+std::vector<GridObject> objects_of(const Scene& scene, double frame_seconds) {
     std::vector<MeshBalls> balls;
     for (const SceneMesh& mesh : scene.meshes) balls.push_back(balls_of(scene, mesh));
     const std::vector<Aabb> boxes = scene.object_boxes();
@@ -87,11 +98,9 @@ std::vector<GridObject> objects_of(const Scene& scene) {
         const std::size_t mesh = index_of(scene.object_mesh(ObjectId{i}));
         GridObject object = object_of(scene.object_placement(ObjectId{i}), scene.meshes[mesh].bounds.centre(),
                                       balls[mesh], boxes[i]);
-        if (i < scene.dynamic_objects.size()) {
-            object.max_step = std::numeric_limits<float>::infinity();
-            // Its box grows and shrinks as it turns; the middle of it stays the mesh's.
-            object.inner_offset = glm::vec3(0.0f);
-        }
+        object.max_step = step_of(scene, ObjectId{i}, frame_seconds);
+        // Its box grows and shrinks as it turns; the middle of it stays the mesh's.
+        if (object.max_step > 0.0f) object.inner_offset = glm::vec3(0.0f);
         objects.push_back(object);
     }
     return objects;
@@ -99,21 +108,17 @@ std::vector<GridObject> objects_of(const Scene& scene) {
 
 }  // namespace
 
-std::unique_ptr<GridPlanner> make_grid_method(const Scene& scene) {
+std::unique_ptr<GridPlanner> make_grid_method(const Scene& scene, double frame_seconds) {
     std::vector<GridStatic> statics;
+    for (const StaticObject& object : static_objects(scene)) statics.push_back({object.range, object.bounds});
     std::vector<bool> occludes;
-    std::uint32_t first = 0;
-    for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {
-        for (const SceneObject& object : scene.batches[b].objects)
-            statics.push_back({{BatchId{b}, first + object.first_index, object.index_count}, object.bounds});
-        first += static_cast<std::uint32_t>(scene.batches[b].indices.size());
-        occludes.push_back(!scene.materials[index_of(scene.batches[b].material)].alpha_tested);
-    }
+    for (const SceneBatch& batch : scene.batches)
+        occludes.push_back(!scene.materials[index_of(batch.material)].alpha_tested);
     GridOptions options;
     options.bounds = scene.bounds();
     options.cells = cells_for(options.bounds);
     return std::make_unique<GridPlanner>(scene.triangle_batches(), occludes, std::move(statics),
-                                         objects_of(scene), options);
+                                         objects_of(scene, frame_seconds), options);
 }
 
 }  // namespace rhview::cli

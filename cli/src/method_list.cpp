@@ -49,13 +49,16 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
         walk.mode = value;
     } else if (name == "occlusion") {
         walk.occlusion = value;
+    } else if (name == "hierarchy") {
+        walk.hierarchy = value;
     } else if (name == "submission") {
         walk.submission = value;
     } else {
-        return Error{fmt::format(
-            "--methods {}: there is no option '{}'; a method has leaf, replica-budget, mode, occlusion and "
-            "submission",
-            label, name)};
+        return Error{
+            fmt::format("--methods {}: there is no option '{}'; a method has leaf, replica-budget, mode, "
+                        "occlusion, hierarchy and "
+                        "submission",
+                        label, name)};
     }
     return success();
 }
@@ -76,6 +79,7 @@ Result<std::vector<ListedMethod>> parse_methods(const std::string& list, const W
         method.walk.method = parts[0];
         if (parts[0] != "rhview") method.walk.mode = "exact";
         if (!parts[0].starts_with("rhview")) method.walk.occlusion = "auto";
+        if (!is_interactive(parts[0])) method.walk.hierarchy = "auto", method.walk.tune.clear();
         for (std::size_t i = 1; i < parts.size(); ++i)
             if (Status status = read_option(label, parts[i], method.walk); !status) return status.error();
         methods.push_back(std::move(method));

@@ -39,6 +39,8 @@ struct WalkOptions {
     std::string method = "rhview";
     std::string mode = "exact";
     std::string occlusion = "auto";
+    std::string hierarchy = "auto";
+    std::string tune;
     std::string submission = "plain";
     std::string size = "1280x720";
     std::optional<std::filesystem::path> path;
@@ -62,7 +64,7 @@ struct WalkOptions {
 
 struct CompareOptions {
     WalkOptions walk;  ///< what all methods have in common
-    std::string methods = "frustum,octree,rhview-seed,rhview";
+    std::string methods = "frustum,octree,nested-grid,chc++,rhview-seed,rhview";
     std::string order = "frame";
     std::optional<std::filesystem::path> report;
     std::string command;  ///< as it was typed, for the report

@@ -26,13 +26,23 @@ Status check_options(const WalkOptions& options) {
     if (std::ranges::find(ways, options.occlusion) == ways.end())
         return Error{
             fmt::format("--occlusion {}: unknown; write {}", options.occlusion, fmt::join(ways, ", "))};
+    const bool interactive = is_interactive(options.method);
     if (options.visible_set &&
-        (options.method == "none" || options.method == "frustum" || options.method == "grid"))
+        (options.method == "none" || options.method == "frustum" || options.method == "grid" || interactive))
         return Error{fmt::format("--visible-set: {} has no octree; choose another --method", options.method)};
     if (options.mode == "latent" && (options.method != "rhview" || options.occlusion == "off"))
         return Error{"--mode latent: needs --method rhview, and no --occlusion off"};
     if (options.occlusion == "boxes" && options.method == "rhview-seed")
         return Error{"--occlusion boxes: rhview-seed asks by hardware queries; leave it out"};
+    if (options.occlusion != "auto" && interactive)
+        return Error{fmt::format("--occlusion {}: {} asks in its own way; leave it out", options.occlusion,
+                                 options.method)};
+    if ((options.hierarchy != "auto" && options.method != "chc" && options.method != "chc++") ||
+        (!options.tune.empty() && options.method != "chc++" && options.method != "nested-grid"))
+        return Error{
+            fmt::format("--hierarchy and --tune: {} has no such choice; leave them out", options.method)};
+    if (const Result<RivalOptions> rival = parse_rival(options.hierarchy, options.tune); !rival)
+        return rival.error();
     if (options.occlusion != "auto" && options.occlusion != "off" && options.method != "rhview" &&
         options.method != "rhview-seed")
         return Error{fmt::format("--occlusion {}: {} asks nothing; choose --method rhview, or leave it out",

@@ -12,9 +12,11 @@
 #include "occlusion_choice.h"
 #include "reveal_delays.h"
 #include "rhview/gl/item_buffer.h"
+#include "rhview/gl/stepped_executor.h"
 #include "rhview/gl/timer.h"
 #include "rhview/gl/work_counter.h"
 #include "rhview/rhoctree/draw_list.h"
+#include "rhview/scenes/object_motion.h"
 #include "rhview/timing_model/running_update.h"
 #include "statistics.h"
 
@@ -28,6 +30,11 @@ Work without_queries(Work work) {
     return work;
 }
 
+std::uint64_t distinct(std::vector<std::uint32_t> numbers) {
+    std::ranges::sort(numbers);
+    return static_cast<std::uint64_t>(std::ranges::unique(numbers).begin() - numbers.begin());
+}
+
 WalkReport describe(const WalkOptions& options, const WalkGround& ground, const PreparedMethod& method) {
     const Scene& scene = ground.loaded.scene;
     const gl::DeviceInfo& device = ground.context.device();
@@ -39,7 +46,8 @@ WalkReport describe(const WalkOptions& options, const WalkGround& ground, const 
                     scene.materials.size(),
                     scene.batches.size(),
                     scene.static_instances.size(),
-                    scene.instance_triangles()};
+                    scene.instance_triangles(),
+                    distinct(object_groups(scene))};
     report.device = {device.renderer, device.version, "wall"};
     report.build.ms = method.build_ms;
     if (method.octree != nullptr) {
@@ -47,6 +55,13 @@ WalkReport describe(const WalkOptions& options, const WalkGround& ground, const 
         report.build.leaves = method.octree->leaf_count();
         report.build.replicas = method.octree->replicas().size();
         report.build.replica_bytes = method.octree->replica_bytes();
+        report.build.hierarchy = "octree";
+    }
+    if (method.rival) {
+        report.build.nodes = method.rival->nodes;
+        report.build.leaves = method.rival->leaves;
+        report.build.hierarchy = method.rival->hierarchy;
+        report.in_steps = true;
     }
     report.build.instancing = scene.instancing;
     report.build.index_bytes = scene.index_bytes();
@@ -85,7 +100,9 @@ class WalkSession::Impl {
           bounds_(scene_.bounds()),
           clip_depth_(ground.context.device().clip_control ? ClipDepth::ReversedZeroToOne
                                                            : ClipDepth::NegativeOneToOne),
-          object_boxes_(scene_.object_boxes()) {}
+          object_groups_(object_groups(scene_)) {
+        place_objects(scene_, 0.0, placements_);
+    }
 
     Status set_up() {
         if (Status status = prepare(); !status) return status;
@@ -98,7 +115,7 @@ class WalkSession::Impl {
 
     Status walk(int frame) {
         FrameRecord record = draw_frame(frame);
-        if (running_) {
+        if (running_ && record.predicted_ms) {
             // Queries are priced apart, by what they asked about.
             const double query_ms = record.occlusion ? record.occlusion->query_ms : 0.0;
             const Work draws = without_queries(record.work);
@@ -118,8 +135,8 @@ class WalkSession::Impl {
 
     Status finish() {
         if (delays_) report_.reveal_frames = delays_->frames();
-        report_.blocking_reads = executor_->answer_counters().blocking_reads;
-        report_.lost_queries = executor_->answer_counters().lost;
+        report_.blocking_reads = answer_counters().blocking_reads;
+        report_.lost_queries = answer_counters().lost;
         const std::string error = gl::take_error();
         return error.empty() ? success() : Status(Error{"OpenGL reported: " + error});
     }
@@ -129,7 +146,10 @@ class WalkSession::Impl {
   private:
     /// The method, ready to plan, and what the report says of it.
     Status prepare() {
-        MethodOptions method_options{options_.leaf, options_.replica_budget, {}, {}};
+        Result<RivalOptions> rival = parse_rival(options_.hierarchy, options_.tune);
+        if (!rival) return rival.error();
+        MethodOptions method_options{
+            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value(), frame_seconds()};
         if (constants_)
             method_options.costs = draw_costs(constants_->profile, options_.submission == "multi");
         std::string why_no_occlusion;
@@ -152,6 +172,15 @@ class WalkSession::Impl {
         return success();
     }
 
+    /// The greatest step of the path's time between frames.
+    [[nodiscard]] double frame_seconds() const {
+        double most = 0.0;
+        for (int frame = 1; frame < options_.frames; ++frame)
+            most = std::max(most, path_.time_of_frame(frame, options_.frames) -
+                                      path_.time_of_frame(frame - 1, options_.frames));
+        return most;
+    }
+
     void list_object_indices() {
         const auto count = [&](const auto& placed) {
             const SceneMesh& mesh = scene_.meshes[index_of(placed.mesh)];
@@ -169,6 +198,11 @@ class WalkSession::Impl {
         Result<gl::Executor> executor = gl::Executor::create();
         if (!executor) return executor.error();
         executor_.emplace(std::move(executor).value());
+        if (method_.rival) {
+            Result<gl::SteppedExecutor> stepped = gl::SteppedExecutor::create(*executor_);
+            if (!stepped) return stepped.error();
+            stepped_.emplace(std::move(stepped).value());
+        }
         Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(scene_, method_.static_indices());
         if (!buffers) return buffers.error();
         buffers_.emplace(std::move(buffers).value());
@@ -202,16 +236,64 @@ class WalkSession::Impl {
         return path_.view_of_frame(frame, options_.frames, aspect, clip_depth_);
     }
 
+    [[nodiscard]] gl::AnswerCounters answer_counters() const {
+        return stepped_ ? stepped_->answer_counters() : executor_->answer_counters();
+    }
+
+    /// The same of a method that draws and asks in turns. What only the device counts is not counted:
+    /// OpenGL knows one occlusion query at a time.
+    FrameRecord draw_in_steps(int frame, const FrameInput& input, const gl::DrawOptions& draw) {
+        FrameRecord record;
+        record.frame = frame;
+        const std::uint64_t waits = stepped_->answer_counters().blocking_reads;
+        const gl::WallTimer timer;
+        if (gpu_timer_) gpu_timer_->begin();
+        stepped_->begin(*buffers_, view_of(frame), draw);
+        const gl::WallTimer method_timer;
+        const double begun_ms = stepped_->device_ms();
+        method_.rival->method->draw(input, *stepped_, drawn_);
+        record.cull_ms = std::max(method_timer.elapsed_ms() - (stepped_->device_ms() - begun_ms), 0.0);
+        const gl::FrameCounters counters = stepped_->end();
+        if (gpu_timer_) gpu_timer_->end();
+        gl::finish();
+        record.frame_ms = timer.elapsed_ms();
+        if (gpu_timer_) record.gpu_ms = gpu_timer_->read_ms();
+        record.work = gl::work_of(counters);
+        record.work.queries = static_cast<double>(counters.queries);
+        std::swap(plan_, drawn_.plan);
+        answers_.swap(drawn_.answers);
+        record.nodes_visited = plan_.nodes_visited;
+        for (const ObjectId id : plan_.objects) count_object(id, record);
+        OcclusionRecord& o = record.occlusion.emplace();
+        o.candidates = plan_.nodes_visited;
+        o.boxes = counters.query_boxes;
+        o.hidden = drawn_.hidden_queries;
+        o.waits = stepped_->answer_counters().blocking_reads - waits;
+        return record;
+    }
+
+    [[nodiscard]] FrameInput input_for(const View& view) const {
+        FrameInput input;
+        input.culling_view = view;
+        input.scene_origin = scene_.origin;
+        input.object_boxes = placements_.boxes;
+        input.object_groups = object_groups_;
+        input.viewport_pixels = {target_->width(), target_->height()};
+        return input;
+    }
+
     /// One drawing of the frame; the first of several counts, all of them are timed.
     FrameRecord draw_once(int frame) {
         const View view = view_of(frame);
-        const FrameInput input{
-            culling_view_of(frame), scene_.origin, object_boxes_, {target_->width(), target_->height()}};
+        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        const FrameInput input = input_for(culling_view_of(frame));
         gl::DrawOptions draw;
+        draw.placements = placements_.scene_from_mesh;
         draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
         draw.counter = &*work_counter_;
         target_->begin(clip_depth_, kSky);
         gl::finish();
+        if (stepped_) return draw_in_steps(frame, input, draw);
         FrameRecord record;
         record.frame = frame;
         const gl::WallTimer timer;
@@ -246,7 +328,8 @@ class WalkSession::Impl {
 
     /// What hung on queries enters the work as far as the device drew it.
     void count_occlusion(const gl::FrameCounters& counters, FrameRecord& record) const {
-        const gl::ExecutedDraws executed = gl::count_executed(plan_, *buffers_, answers_);
+        const gl::ExecutedDraws executed =
+            gl::count_executed(plan_, *buffers_, answers_, placements_.scene_from_mesh);
         OcclusionRecord& o = record.occlusion.emplace();
         o.candidates = plan_.occlusion->candidates;
         o.boxes = counters.query_boxes;
@@ -299,7 +382,8 @@ class WalkSession::Impl {
 
     [[nodiscard]] std::uint64_t visible_set_indices(int frame) {
         std::uint64_t indices = 0;
-        for (const std::uint32_t leaf : items_->visible_items(leaves_, *buffers_, view_of(frame)))
+        for (const std::uint32_t leaf :
+             items_->visible_items(leaves_, *buffers_, view_of(frame), placements_.scene_from_mesh))
             indices += 3 * std::uint64_t{method_.octree->node(NodeId{leaf}).triangle_count};
         return indices;
     }
@@ -310,17 +394,18 @@ class WalkSession::Impl {
         target_->read_depth(culled_depths_);
         std::optional<gl::Picture> culled;
         if (pictured) culled.emplace(target_->read_colour());
-        reference_->plan({.culling_view = view, .scene_origin = scene_.origin, .object_boxes = object_boxes_},
-                         everything_);
+        reference_->plan(input_for(view), everything_);
+        gl::DrawOptions draw;
+        draw.placements = placements_.scene_from_mesh;
         target_->begin(clip_depth_, kSky);
-        executor_->draw(everything_, *buffers_, view);
+        executor_->draw(everything_, *buffers_, view, draw);
         target_->read_depth(reference_depths_);
         const std::size_t missing = gl::count_missing_pixels(culled_depths_, reference_depths_);
         if (checked) record.missing_pixels = missing;
         if (checked && delays_)
             record.late_items = delays_->add_frame(
                 items_->item_pixels(leaves_, static_cast<std::uint32_t>(method_.octree->nodes().size()),
-                                    *buffers_, view),
+                                    *buffers_, view, placements_.scene_from_mesh),
                 culled_depths_, reference_depths_);
         if (!pictured) return success();
 
@@ -331,8 +416,10 @@ class WalkSession::Impl {
         if (options_.method == "rhview")
             append_ranges_to_show(*method_.octree, make_frustum(culling_view, scene_.origin),
                                   make_viewpoint(culling_view, scene_.origin), to_show);
-        gl::Picture above = above_->draw(everything_, plan_, answers_, to_show, *method_.planner, *buffers_,
-                                         bounds_, culling_view, *executor_);
+        gl::Picture above = above_->draw(
+            everything_, plan_, answers_, to_show,
+            [&](std::uint32_t chosen) { return method_.bounds_of(chosen); }, *buffers_, bounds_, culling_view,
+            placements_.scene_from_mesh, *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
                                   record.work.draw_calls, record.work.indices * 1e-6));
         reference.label("everything drawn");
@@ -358,9 +445,12 @@ class WalkSession::Impl {
     std::unique_ptr<FramePlanner> reference_;
     Aabb bounds_;
     ClipDepth clip_depth_;
-    std::vector<Aabb> object_boxes_;
+    std::vector<std::uint32_t> object_groups_;
+    ObjectPlacements placements_;  ///< of the frame
     std::optional<gl::RenderTarget> target_;
     std::optional<gl::Executor> executor_;
+    std::optional<gl::SteppedExecutor> stepped_;  ///< of a method that draws and asks in turns
+    DrawnFrame drawn_;                            ///< by it
     std::optional<gl::SceneBuffers> buffers_;
     std::optional<gl::GpuTimer> gpu_timer_;
     std::optional<gl::WorkCounter> work_counter_;

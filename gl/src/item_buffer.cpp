@@ -102,7 +102,8 @@ void ItemBuffer::draw(const DrawState& state, std::uint32_t first_index, std::ui
 
 std::span<const std::uint32_t> ItemBuffer::item_pixels(std::span<const ItemRange> ranges,
                                                        std::uint32_t first_object, const SceneBuffers& scene,
-                                                       const View& view) {
+                                                       const View& view,
+                                                       std::span<const glm::dmat4> placements) {
     const StateGuard state_guard(has_clip_control());
     const TargetGuard target_guard;
     begin(view);
@@ -111,8 +112,9 @@ std::span<const std::uint32_t> ItemBuffer::item_pixels(std::span<const ItemRange
         draw(scene.batches()[index_of(part.range.batch)], part.range.first_index, part.range.index_count,
              part.item);
     std::uint32_t item = first_object;
-    for (const ObjectInstance& object : scene.objects()) {
-        set_transform(view, scene.origin(), object.scene_from_mesh);
+    for (std::size_t i = 0; i < scene.objects().size(); ++i) {
+        const ObjectInstance& object = scene.objects()[i];
+        set_transform(view, scene.origin(), i < placements.size() ? placements[i] : object.scene_from_mesh);
         draw(object.state, object.first_index, object.index_count, item);
         if (first_object != kNoItem) ++item;
     }
@@ -124,8 +126,9 @@ std::span<const std::uint32_t> ItemBuffer::item_pixels(std::span<const ItemRange
 }
 
 std::vector<std::uint32_t> ItemBuffer::visible_items(std::span<const ItemRange> ranges,
-                                                     const SceneBuffers& scene, const View& view) {
-    item_pixels(ranges, kNoItem, scene, view);
+                                                     const SceneBuffers& scene, const View& view,
+                                                     std::span<const glm::dmat4> placements) {
+    item_pixels(ranges, kNoItem, scene, view, placements);
     std::ranges::sort(pixels_);
     std::vector<std::uint32_t> seen;
     for (const std::uint32_t item : pixels_)

@@ -31,6 +31,7 @@ void RhviewPlanner::plan(const FrameInput& input, FramePlan& plan) {
     solver_.solve(octree_, frustum, viewpoint, costs_, list_, alternatives, known);
     plan.opaque.assign(list_.ranges.begin(), list_.ranges.end());
     if (visibility_) visibility_->append_conditional(list_.alternatives, plan);
+    sorter_.sort(input.object_groups, plan);
     plan.predicted_ns = list_.predicted_ns + (plan.occlusion ? plan.occlusion->query_ns : 0.0);
     plan.nodes_visited = list_.nodes_visited + (visibility_ ? visibility_->nodes_visited() : 0);
     for (const NodeId node : list_.nodes) plan.chosen.push_back(static_cast<std::uint32_t>(node));

@@ -158,6 +158,7 @@ class GridPlanner final : public FramePlanner {
     std::vector<std::uint64_t> slab_;   ///< scratch: what blocks rays, by row
     std::vector<std::uint64_t> row_;    ///< scratch
     std::vector<std::uint64_t> shown_;  ///< by item
+    ObjectSorter sorter_;
     GridStatistics statistics_;
 };
 
