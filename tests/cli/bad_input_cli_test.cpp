@@ -37,7 +37,8 @@ TEST_F(BadInput, unknown_verbs_options_methods_and_modes) {
     refuse("walk", {"SCENE"}, 0);
     refuse("--verison", {"--verison", "scenes, info, calibrate, bake, walk, compare"}, 0);
     refuse("walk town --method fastest",
-           {"--method fastest", "none, frustum, grid, octree, nested-grid, chc, chc++, rhview-seed, rhview"}, 0);
+           {"--method fastest", "none, frustum, grid, octree, nested-grid, chc, chc++, rhview-seed, rhview"},
+           0);
     refuse("walk town --mode guess", {"--mode guess"}, 0);
     refuse("walk town --mode latent --method octree", {"--mode latent", "rhview"}, 0);
     refuse("walk town --occlusion never", {"--occlusion never", "auto, hardware, boxes, off"}, 0);
