@@ -97,6 +97,8 @@ function(rhview_install)
 
   if(TARGET rhview_cli)
     install(TARGETS rhview_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    install(FILES "${PROJECT_SOURCE_DIR}/scripts/report.py" "${PROJECT_SOURCE_DIR}/scripts/report_page.py"
+      DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/rhview)
   endif()
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endfunction()

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The rhview authors
 # SPDX-License-Identifier: MIT
-"""Plots what was predicted against what was measured, for walks (`rhview walk --json`) and calibrations (`--csv`).
+"""Plots what was predicted against what was measured, for walks (`rhview walk --json`) and calibrations (`--csv`);
+makes the page of a comparison (`rhview compare --json`), which needs no matplotlib.
 
 usage: scripts/report.py FILE… -o FOLDER
 
 Writes prediction.png (predicted against measured, one colour per file) and residuals.png (the relative residual of every
 frame, and against indices), and prints a line per file: median and 95th percentile of |predicted - measured| / measured.
+Of a comparison, one file alone: report.html, with the picture of FOLDER/scene if there is one.
 """
 
 import argparse
@@ -15,12 +17,21 @@ import json
 import pathlib
 import sys
 
-try:
-    import matplotlib
-    matplotlib.use("Agg")  # before pyplot: no window
-    import matplotlib.pyplot as plt
-except ImportError:
-    sys.exit(f"report: {sys.executable} has no matplotlib; install it (Debian: python3-matplotlib, for /usr/bin/python3)")
+import report_page
+
+plt = None  # matplotlib.pyplot, once a plot is wanted
+
+
+def load_matplotlib():
+    global plt
+    try:
+        import matplotlib
+        matplotlib.use("Agg")  # before pyplot: no window
+        import matplotlib.pyplot
+    except ImportError:
+        sys.exit(f"report: {sys.executable} has no matplotlib; install it (Debian: python3-matplotlib, for "
+                 "/usr/bin/python3)")
+    plt = matplotlib.pyplot
 
 
 class Frames:
@@ -107,12 +118,38 @@ def plot_residuals(runs, file):
     plt.close(figure)
 
 
+def read_comparison(file):
+    """The comparison in a file, or nothing if it is something else."""
+    if file.suffix == ".csv":
+        return None
+    try:
+        page = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, json.JSONDecodeError, UnicodeDecodeError) as problem:
+        sys.exit(f"{file}: can't be read ({problem})")
+    return page if isinstance(page, dict) and page.get("schema") == "rhview.compare/1" else None
+
+
+def write_page(page, file, folder):
+    try:
+        text = report_page.page_of(page, folder)
+    except (KeyError, TypeError, IndexError) as problem:
+        sys.exit(f"{file}: lacks what a comparison has ({problem!r}); write it with rhview compare --json")
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "report.html").write_text(text, encoding="utf-8")
+    print(f"{folder / 'report.html'}: {len(page['runs'])} methods")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("files", nargs="+", type=pathlib.Path, metavar="FILE",
-                        help="walk JSON or calibration CSV (by its ending)")
+                        help="walk JSON or calibration CSV (by its ending), or the JSON of one comparison")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, metavar="FOLDER")
     options = parser.parse_args()
+    comparison = read_comparison(options.files[0]) if len(options.files) == 1 else None
+    if comparison is not None:
+        write_page(comparison, options.files[0], options.output)
+        return
+    load_matplotlib()
     runs = [read(file) for file in options.files]
     options.output.mkdir(parents=True, exist_ok=True)
     plot_prediction(runs, options.output / "prediction.png")

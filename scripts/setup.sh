@@ -26,8 +26,8 @@ packages=(
     libcli11-dev libfmt-dev
     # tests and benchmarks
     libgtest-dev libbenchmark-dev
-    # plots
-    python3-matplotlib
+    # plots, and a browser that report pages are tested in
+    python3-matplotlib chromium
 )
 
 fail() {

@@ -17,7 +17,7 @@
 namespace rhview::cli {
 namespace {
 
-constexpr std::array<std::string_view, 5> kVerbs{"scenes", "info", "calibrate", "bake", "walk"};
+constexpr std::array<std::string_view, 6> kVerbs{"scenes", "info", "calibrate", "bake", "walk", "compare"};
 
 constexpr const char* kSceneHelp = "A file (.glb .gltf .obj .ply .rho) or a named scene";
 
@@ -71,12 +71,9 @@ void add_calibrate(CLI::App& app, CalibrateOptions& options) {
     calibrate->add_option("--csv", options.csv, "Write a line per timed frame")->type_name("FILE");
 }
 
-void add_walk(CLI::App& app, WalkOptions& options) {
-    CLI::App* walk = app.add_subcommand("walk", "One culling method along a camera path, headless");
+/// What walks and comparisons have in common.
+void add_walk_options(CLI::App* walk, WalkOptions& options) {
     walk->add_option("SCENE", options.scene, kSceneHelp)->required();
-    walk->add_option("--method", options.method, fmt::format("{}", fmt::join(method_names(), ", ")))
-        ->type_name("M")
-        ->capture_default_str();
     walk->add_option("--mode", options.mode,
                      "exact: what is left out is proved hidden in the same frame; latent: earlier frames' "
                      "answers are trusted")
@@ -133,12 +130,42 @@ void add_walk(CLI::App& app, WalkOptions& options) {
             "From this frame on, cull for its camera while the picture's goes on: shows what is left out")
         ->type_name("FRAME")
         ->check(CLI::Range(0, 1'000'000));
-    walk->add_option("--json", options.json, "Write the results as JSON (rhview.walk/1)")->type_name("FILE");
     walk->add_option("--csv", options.csv, "Write a line per frame")->type_name("FILE");
+}
+
+void add_walk(CLI::App& app, WalkOptions& options) {
+    CLI::App* walk = app.add_subcommand("walk", "One culling method along a camera path, headless");
+    walk->add_option("--method", options.method, fmt::format("{}", fmt::join(method_names(), ", ")))
+        ->type_name("M")
+        ->capture_default_str();
+    add_walk_options(walk, options);
+    walk->add_option("--json", options.json, "Write the results as JSON (rhview.walk/1)")->type_name("FILE");
     walk->add_option("--images", options.images, "Write a PNG of every 30th frame")->type_name("DIR");
     walk->add_option("--images-every", options.images_every, "Another interval for --images")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000));
+}
+
+void add_compare(CLI::App& app, CompareOptions& options) {
+    CLI::App* compare = app.add_subcommand("compare", "Several culling methods along one path, in one run");
+    compare
+        ->add_option("--methods", options.methods,
+                     "Methods, separated by commas, each with options of its own behind colons (leaf, "
+                     "replica-budget, mode, occlusion, submission): octree:leaf=4096,rhview")
+        ->type_name("a,b,…")
+        ->capture_default_str();
+    compare
+        ->add_option("--order", options.order,
+                     "frame: methods take turns frame by frame; run: one walks after the other")
+        ->type_name("O")
+        ->capture_default_str();
+    compare
+        ->add_option("--report", options.report,
+                     "Write report.html, a page that needs nothing else, and compare.json")
+        ->type_name("DIR");
+    add_walk_options(compare, options.walk);
+    compare->add_option("--json", options.walk.json, "Write the results as JSON (rhview.compare/1)")
+        ->type_name("FILE");
 }
 
 void add_bake(CLI::App& app, BakeOptions& options) {
@@ -159,6 +186,16 @@ void add_bake(CLI::App& app, BakeOptions& options) {
         ->type_name("c1=…,c3=…");
     bake->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
         ->type_name("FILE");
+}
+
+/// As a shell takes it for one word.
+std::string quoted(std::string_view word) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+:,./%@";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) return std::string(word);
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
 }
 
 /// CLI11's message as one sentence.
@@ -183,6 +220,11 @@ int run(int argc, char** argv) {
     add_calibrate(app, calibrate);
     WalkOptions walk;
     add_walk(app, walk);
+    CompareOptions compare;
+    compare.program = argv[0];
+    for (int i = 0; i < argc; ++i)
+        compare.command += (i > 0 ? " " : "") + (i > 0 ? quoted(argv[i]) : std::string("rhview"));
+    add_compare(app, compare);
     BakeOptions bake;
     add_bake(app, bake);
     try {
@@ -201,6 +243,7 @@ int run(int argc, char** argv) {
     Result<int> code = app.got_subcommand(scenes->get_name()) ? run_scenes()
                        : app.got_subcommand("info")           ? run_info(info)
                        : app.got_subcommand("bake")           ? run_bake(bake)
+                       : app.got_subcommand("compare")        ? run_compare(compare)
                        : app.got_subcommand("calibrate")      ? run_calibrate(calibrate)
                                                               : run_walk(walk);
     if (code && std::fflush(stdout) != 0)

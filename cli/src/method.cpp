@@ -3,6 +3,7 @@
 
 #include "method.h"
 
+#include "grid_method.h"
 #include "rhview/baselines/draw_everything.h"
 #include "rhview/baselines/frustum_objects.h"
 #include "rhview/baselines/octree_leaves.h"
@@ -47,7 +48,7 @@ OctreeOptions octree_options_of(std::string_view method, const Scene& scene, con
 }
 
 std::vector<std::string> method_names() {
-    return {"none", "frustum", "octree", "nested-grid", "chc", "chc++", "rhview-seed", "rhview"};
+    return {"none", "frustum", "grid", "octree", "nested-grid", "chc", "chc++", "rhview-seed", "rhview"};
 }
 
 Aabb PreparedMethod::bounds_of(std::uint32_t chosen) const {
@@ -75,6 +76,12 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
     }
     if (method == "frustum") {
         prepared.planner = std::make_unique<FrustumObjects>(static_objects(scene));
+        return prepared;
+    }
+    if (method == "grid") {
+        const gl::WallTimer timer;
+        prepared.planner = make_grid_method(scene, options.frame_seconds);
+        prepared.build_ms = timer.elapsed_ms();
         return prepared;
     }
     if (is_interactive(method)) {

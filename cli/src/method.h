@@ -42,6 +42,8 @@ struct MethodOptions {
     DrawCosts costs;                                  ///< what `rhview` plans by
     std::optional<OcclusionOptions> occlusion;        ///< of `rhview` and `rhview-seed`; absent: asks nothing
     RivalOptions rival;                               ///< of chc, chc++ and nested-grid
+    /// Of the scene's time from a frame to the next, at most: what `grid` knows of speeds. 0: unknown.
+    double frame_seconds = 0.0;
 };
 
 /// What the scene's author placed, in the order of the batches.

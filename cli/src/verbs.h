@@ -62,6 +62,15 @@ struct WalkOptions {
     std::optional<std::filesystem::path> images;
 };
 
+struct CompareOptions {
+    WalkOptions walk;  ///< what all methods have in common
+    std::string methods = "frustum,octree,nested-grid,chc++,rhview-seed,rhview";
+    std::string order = "frame";
+    std::optional<std::filesystem::path> report;
+    std::string command;  ///< as it was typed, for the report
+    std::filesystem::path program;
+};
+
 struct BakeOptions {
     std::string scene;
     std::filesystem::path output;
@@ -79,6 +88,7 @@ Result<int> run_scenes();
 Result<int> run_info(const InfoOptions& options);
 Result<int> run_calibrate(const CalibrateOptions& options);
 Result<int> run_walk(const WalkOptions& options);
+Result<int> run_compare(const CompareOptions& options);
 Result<int> run_bake(const BakeOptions& options);
 
 }  // namespace rhview::cli

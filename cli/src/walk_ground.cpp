@@ -27,7 +27,8 @@ Status check_options(const WalkOptions& options) {
         return Error{
             fmt::format("--occlusion {}: unknown; write {}", options.occlusion, fmt::join(ways, ", "))};
     const bool interactive = is_interactive(options.method);
-    if (options.visible_set && (options.method == "none" || options.method == "frustum" || interactive))
+    if (options.visible_set &&
+        (options.method == "none" || options.method == "frustum" || options.method == "grid" || interactive))
         return Error{fmt::format("--visible-set: {} has no octree; choose another --method", options.method)};
     if (options.mode == "latent" && (options.method != "rhview" || options.occlusion == "off"))
         return Error{"--mode latent: needs --method rhview, and no --occlusion off"};

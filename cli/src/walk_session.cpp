@@ -153,7 +153,7 @@ class WalkSession::Impl {
         Result<RivalOptions> rival = parse_rival(options_.hierarchy, options_.tune);
         if (!rival) return rival.error();
         MethodOptions method_options{
-            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value()};
+            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value(), frame_seconds()};
         if (constants_)
             method_options.costs = draw_costs(constants_->profile, options_.submission == "multi");
         std::string why_no_occlusion;
@@ -174,6 +174,15 @@ class WalkSession::Impl {
         report_.why_no_occlusion = why_no_occlusion;
         if (method_options.occlusion) report_.query_costs = method_options.occlusion->costs;
         return success();
+    }
+
+    /// The greatest step of the path's time between frames.
+    [[nodiscard]] double frame_seconds() const {
+        double most = 0.0;
+        for (int frame = 1; frame < options_.frames; ++frame)
+            most = std::max(most, path_.time_of_frame(frame, options_.frames) -
+                                      path_.time_of_frame(frame - 1, options_.frames));
+        return most;
     }
 
     void list_object_indices() {

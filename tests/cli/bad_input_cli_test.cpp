@@ -31,13 +31,14 @@ class BadInput : public ProgramTest {
 };
 
 TEST_F(BadInput, unknown_verbs_options_methods_and_modes) {
-    refuse("", {"scenes, info, calibrate, bake, walk"}, 0);
-    refuse("wlak town", {"wlak", "scenes, info, calibrate, bake, walk"}, 0);
+    refuse("", {"scenes, info, calibrate, bake, walk, compare"}, 0);
+    refuse("wlak town", {"wlak", "scenes, info, calibrate, bake, walk, compare"}, 0);
     refuse("walk town --colour red", {"--colour", "rhview walk --help"}, 0);
     refuse("walk", {"SCENE"}, 0);
-    refuse("--verison", {"--verison", "scenes, info, calibrate, bake, walk"}, 0);
+    refuse("--verison", {"--verison", "scenes, info, calibrate, bake, walk, compare"}, 0);
     refuse("walk town --method fastest",
-           {"--method fastest", "none, frustum, octree, nested-grid, chc, chc++, rhview-seed, rhview"}, 0);
+           {"--method fastest", "none, frustum, grid, octree, nested-grid, chc, chc++, rhview-seed, rhview"},
+           0);
     refuse("walk town --mode guess", {"--mode guess"}, 0);
     refuse("walk town --mode latent --method octree", {"--mode latent", "rhview"}, 0);
     refuse("walk town --occlusion never", {"--occlusion never", "auto, hardware, boxes, off"}, 0);

@@ -26,9 +26,9 @@ TEST_P(EveryMethod, misses_no_pixel_on_small_scenes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
-                         testing::Values("none", "frustum", "octree", "rhview-seed", "rhview", "nested-grid",
-                                         "nested-grid --leaf 100 --tune levels=2,top-cells=16", "chc",
-                                         "chc --hierarchy octree --leaf 100", "chc++",
+                         testing::Values("none", "frustum", "grid", "octree", "rhview-seed", "rhview",
+                                         "nested-grid", "nested-grid --leaf 100 --tune levels=2,top-cells=16",
+                                         "chc", "chc --hierarchy octree --leaf 100", "chc++",
                                          "chc++ --hierarchy octree --leaf 100 --tune "
                                          "batch=5,visible-frames=2,visible-query=box,tight-depth=1"),
                          [](const auto& test) {

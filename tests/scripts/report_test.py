@@ -6,8 +6,10 @@
 usage: report_test.py REPORT_PY
 """
 
+import html.parser
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -21,6 +23,63 @@ def walk(errors, schema="rhview.walk/1"):
     frames = [{"frame": i, "frame_ms": 10.0, "predicted_ms": None if e is None else 10.0 * (1 + e), "indices": 1000 * i}
               for i, e in enumerate(errors)]
     return json.dumps({"schema": schema, "scene": {"name": "town"}, "method": "octree", "per_frame": frames})
+
+
+def compare(labels=("frustum", "octree:leaf=100", "rhview"), winner=None, lod=False):
+    """A comparison as the program writes it, with a label that is hostile to HTML at will."""
+    runs, compared = [], []
+    for number, label in enumerate(labels):
+        statistics = lambda value: {"mean": value, "median": value, "p95": value, "max": value}
+        frames = [{"frame": i, "frame_ms": 10.0 + number + i % 3, "cull_ms": 0.1, "draw_calls": 10 * (number + 1) + i,
+                   "indices": 30000 * (i + 1), "queries": i, "predicted_ms": 9.0 + i} for i in range(20)]
+        runs.append({"schema": "rhview.walk/1", "label": label, "method": "octree", "frames": 20, "size": [640, 360],
+                     "scene": {"name": "town", "triangles": 5000000, "dynamic_objects": 0},
+                     "device": {"renderer": "a device", "version": "4.5", "timer": "wall"},
+                     "profile": {"c1_ns": 1.0, "c3_ns": 1000.0, "source": "set"},
+                     "summary": {"frame_ms": statistics(11.0), "cull_ms": statistics(0.1), "draw_calls": statistics(20),
+                                 "indices": statistics(3e5), "queries": statistics(9), "predicted_ms": statistics(18),
+                                 "lod_error_px": statistics(0.5 * number) if lod else None,
+                                 "missing_pixels": {"total": 0, "max": 0, "frames": 0, "checked_frames": 20}},
+                     "per_frame": frames})
+        interval = {"median": 1.0, "low": 0.9, "high": 1.1}
+        compared.append({"label": label, "frame_ms": interval, "frame_ms_ratio": interval})
+    return json.dumps({"schema": "rhview.compare/1", "command": "rhview compare town --methods 'a<b'", "order": "frame",
+                       "threads": 2, "reference": labels[-1], "winner": winner, "comparison": compared, "runs": runs})
+
+
+class Page(html.parser.HTMLParser):
+    """Tags that are open at the end, ids, and what a browser would fetch."""
+
+    VOID = {"meta", "link", "img"}
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.ids, self.references, self.tags = [], [], [], set()
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.add(tag)
+        if tag not in self.VOID:
+            self.open.append(tag)
+        for name, value in attributes:
+            if name == "id":
+                self.ids.append(value)
+            if name in ("src", "href", "xlink:href", "srcset", "data"):
+                self.references.append(value)
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in self.VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1] == tag, f"</{tag}> closes {self.open[-1:]}"
+        self.open.pop()
+
+
+PLOTS = ["frame_ms", "cull_ms", "draw_calls", "indices", "queries", "prediction"]
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
 
 class Report(unittest.TestCase):
@@ -67,6 +126,60 @@ class Report(unittest.TestCase):
             self.assertIn(said, done.stderr)
             self.assertFalse((self.folder / "out").exists(), name)
         self.assertIn("nowhere.json", self.run_report(self.folder / "nowhere.json").stderr)
+
+    def page(self, text):
+        done = self.run_report(self.write("compare.json", text))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return (self.folder / "out" / "report.html").read_text(encoding="utf-8")
+
+    def test_the_page_of_a_comparison_has_every_plot_and_needs_nothing_else(self):
+        (self.folder / "out" / "scene").mkdir(parents=True)
+        (self.folder / "out" / "scene" / "frame_0000.png").write_bytes(PNG)
+        text = self.page(compare(lod=True, winner="rhview"))
+        page = Page(text)
+        self.assertEqual(page.open, [])
+        self.assertEqual([i for i in page.ids if i.startswith("plot-")], [f"plot-{p}" for p in PLOTS + ["error"]])
+        self.assertIn("scene", page.ids)
+        self.assertTrue(page.references)
+        for reference in page.references:
+            self.assertTrue(reference.startswith("data:"), reference[:80])
+        self.assertNotIn("script", page.tags)
+        for word in ("@import", "url(", "http:", "https:"):
+            self.assertNotIn(word, text)
+        self.assertEqual(text.count('<polyline class="series"'), 3 * 5)
+        self.assertIn("<strong>rhview</strong> is fastest", text)
+        self.assertIn("prefers-color-scheme: dark", text)
+        self.assertIn("width=device-width", text)
+
+    def test_the_page_tells_no_winner_where_there_is_none_and_no_error_plot_without_levels(self):
+        text = self.page(compare())
+        self.assertNotIn("is fastest:", text)
+        self.assertIn("No method is told to be the fastest", text)
+        self.assertNotIn("plot-error", Page(text).ids)
+
+    def test_names_are_text_not_markup(self):
+        text = self.page(compare(labels=("<script>alert(1)</script>", "rhview")))
+        self.assertNotIn("script", Page(text).tags)
+        self.assertIn("&lt;script&gt;", text)
+        self.assertIn("a&lt;b", text)
+
+    def test_a_comparison_that_lacks_fields_is_told_by_name(self):
+        broken = json.loads(compare())
+        del broken["runs"][0]["summary"]
+        done = self.run_report(self.write("broken.json", json.dumps(broken)))
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("broken.json: lacks what a comparison has", done.stderr)
+
+    @unittest.skipIf(BROWSER is None, "no chromium here: the page was not opened in a browser")
+    def test_a_browser_shows_the_page_without_an_error(self):
+        self.page(compare(lod=True))
+        done = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--v=0",
+                               f"--user-data-dir={self.folder / 'browser'}", "--dump-dom",
+                               (self.folder / "out" / "report.html").as_uri()],
+                              capture_output=True, text=True, check=False, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("CONSOLE", done.stderr)
+        self.assertEqual(done.stdout.count("<figure"), len(PLOTS) + 1)
 
 
 if __name__ == "__main__":
