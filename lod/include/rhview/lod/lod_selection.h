@@ -67,11 +67,13 @@ struct LodSelection {
 /// Remembers each object's level: one selector per view. Chains belong to the caller, and stay.
 ///
 /// Within a budget: if the bound's levels cost too much, all objects start at their last level and are
-/// refined step by step, the step with the greatest gain per cost first, as long as it fits (greedy after
-/// Funkhouser & Séquin 1993). The gain is the fall in wrong pixels, error_px × √size_px, along the lower
-/// convex hull of each object's levels (Sinha & Zoltners 1979), so that a greedy cannot be lured by a step
-/// that only later ones would justify; what is left of the budget goes to steps that still fit. Last frame's
-/// selection is kept where it fits and is nearly as good.
+/// refined step by step, the step with the greatest gain per index first, as long as it fits (greedy after
+/// Funkhouser & Séquin 1993). The gain is the fall in wrong pixels, error_px × √size_px; an object's next
+/// step is the one of the greatest gain per index among all its finer levels (the lower convex hull of Sinha
+/// & Zoltners 1979), so that a small step of little use does not hide a large one. Where the step that no
+/// longer fits gains more on its own than all before it, it is taken in their place: with draws that cost
+/// nothing the gain is at least half the greatest possible. What is left of the budget goes to steps that
+/// still fit. The last selection is kept where it fits and is nearly as good.
 ///
 /// Equal inputs in an equal order give equal levels. A warm selector allocates nothing. Cost: linear in
 /// objects and levels without a budget, O(n log n) in refinements with one.
@@ -79,11 +81,62 @@ class LodSelector {
   public:
     explicit LodSelector(std::span<const LodChain> chains);
 
-    /// Each slot occurs once.
+    /// Each slot occurs once, each chain is one of the selector's.
     void select(std::span<const LodObject> objects, const LodSelectionOptions& options, LodSelection& result);
 
     /// What `slot` was drawn at is forgotten: another object has the number now.
     void forget(std::uint32_t slot);
+
+  private:
+    static constexpr std::uint32_t kNoLevel = ~0u;
+
+    /// An object's most rewarding refinement.
+    struct Step {
+        double gain_per_index = 0.0;
+        std::uint32_t object = 0;
+        std::uint32_t level = 0;
+    };
+
+    [[nodiscard]] std::span<const LodLevel> levels_of(std::size_t object) const;
+    [[nodiscard]] double loss(std::size_t object, std::uint32_t level) const;
+    [[nodiscard]] double total_loss(std::span<const std::uint32_t> levels) const;
+    [[nodiscard]] std::uint32_t remembered(std::size_t object) const;
+    [[nodiscard]] std::uint32_t wanted_level(std::size_t object) const;
+    [[nodiscard]] std::uint32_t level_by_bound(std::size_t object) const;
+    [[nodiscard]] std::uint32_t level_by_fragments(std::size_t object, std::uint64_t fragments) const;
+
+    void count(std::span<const std::uint32_t> levels);
+    [[nodiscard]] double cost(std::uint64_t indices, std::uint64_t groups) const;
+    [[nodiscard]] double cost() const { return cost(indices_, groups_); }
+    [[nodiscard]] bool fits(std::size_t object, std::uint32_t level) const;
+    void move_to(std::size_t object, std::uint32_t level);
+
+    void select_within_budget();
+    void begin_refining();
+    void refine();
+    [[nodiscard]] static bool comes_later(const Step& a, const Step& b);
+    void push_step(std::size_t object);
+    void take_what_fits(std::size_t object);
+    bool start_from_alone(const Step& step);
+    void keep_last_selection();
+    void finish(LodSelection& result);
+
+    std::span<const LodChain> chains_;
+    std::vector<std::size_t> first_group_;   ///< of each chain: its levels have consecutive groups
+    std::vector<std::uint32_t> remembered_;  ///< by slot
+
+    // Of the selection that is being made.
+    std::span<const LodObject> objects_;
+    const LodSelectionOptions* options_ = nullptr;
+    std::vector<std::uint32_t> wanted_;  ///< levels, if they cost nothing
+    std::vector<std::uint32_t> levels_;
+    std::vector<std::uint32_t> last_;         ///< levels of the last selection
+    std::vector<std::uint32_t> group_sizes_;  ///< objects at each level of each chain
+    std::vector<Step> steps_;                 ///< a heap
+    std::uint64_t indices_ = 0;
+    std::uint64_t groups_ = 0;  ///< that have an object
+    double gained_ = 0.0;
+    bool budget_met_ = true;
 };
 
 }  // namespace rhview
