@@ -148,6 +148,11 @@ Status RhoFile::check_gap(std::uint64_t begin, std::uint64_t end) const {
     return success();
 }
 
+std::uint32_t RhoFile::version_of(SectionTag tag) const {
+    const Section* const found = find(tag);
+    return found == nullptr ? 0 : found->version;
+}
+
 Result<MappableArray<std::byte>> RhoFile::section(SectionTag tag, std::uint32_t version,
                                                   std::uint32_t oldest) const {
     const Section* const found = find(tag);

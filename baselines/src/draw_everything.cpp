@@ -18,6 +18,7 @@ void DrawEverything::plan(const FrameInput& input, FramePlan& plan) {
     plan.clear();
     plan.opaque = batches_;
     for (std::uint32_t i = 0; i < input.object_boxes.size(); ++i) plan.objects.push_back(ObjectId{i});
+    sorter_.sort(input.object_groups, plan);
     plan.chosen.push_back(0);
 }
 

@@ -25,6 +25,7 @@ void FrustumObjects::plan(const FrameInput& input, FramePlan& plan) {
             plan.chosen.push_back(static_cast<std::uint32_t>(i));
         }
     append_visible_objects(frustum, input.object_boxes, plan.objects);
+    sorter_.sort(input.object_groups, plan);
     plan.nodes_visited = objects_.size();
 }
 

@@ -62,7 +62,7 @@ Result<int> run_bake(const BakeOptions& options) {
     const Scene& scene = loaded->scene;
     const DrawCosts costs = *constants ? draw_costs((*constants)->profile, false) : DrawCosts();
     const OctreeOptions octree_options =
-        octree_options_of(options.method, scene, {options.leaf, options.replica_budget, costs, {}});
+        octree_options_of(options.method, scene, {options.leaf, options.replica_budget, costs, {}, {}});
     const gl::WallTimer build_timer;
     const std::vector<TriangleBatch> batches = scene.triangle_batches();
     const Result<RhOctree> octree = build_octree(batches, octree_options);

@@ -83,12 +83,13 @@ Result<ViewFromAbove> ViewFromAbove::create(int width, int height) {
 
 gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& plan,
                                 std::span<const QueryAnswer> answers, std::span<const DrawRange> to_show,
-                                const FramePlanner& planner, const gl::SceneBuffers& buffers,
-                                const Aabb& bounds, const View& view, gl::Executor& executor) {
+                                const std::function<Aabb(std::uint32_t)>& bounds_of,
+                                const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
+                                std::span<const glm::dmat4> placements, gl::Executor& executor) {
     const double aspect = static_cast<double>(target_.width()) / target_.height();
     const View above = view_from_above(bounds, buffers.origin(), aspect, view);
     target_.begin(view.clip_depth, kPaper);
-    executor.draw(everything, buffers, above, {gl::Submission::MultiDraw, kNotDrawn});
+    executor.draw(everything, buffers, above, {gl::Submission::MultiDraw, kNotDrawn, nullptr, placements});
     std::uint64_t base_indices = 0;
     for (const DrawRange& range : everything.opaque) base_indices += range.index_count;
     std::vector<DrawRange> sorted(to_show.begin(), to_show.end());
@@ -106,20 +107,26 @@ gl::Picture ViewFromAbove::draw(const FramePlan& everything, const FramePlan& pl
         return answer != answers.end() && !answer->visible;
     };
     FramePlan objects;
-    objects.objects = plan.objects;
-    for (const ConditionalObject& object : plan.conditional_objects)
-        if (!is_hidden(object.query)) objects.objects.push_back(object.object);
+    for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+        objects.objects.push_back(plan.objects[i]);
+        objects.object_levels.push_back(plan.level_of_object(i));
+    }
+    for (const ConditionalObject& object : plan.conditional_objects) {
+        if (is_hidden(object.query)) continue;
+        objects.objects.push_back(object.object);
+        objects.object_levels.push_back(object.level);
+    }
     for (std::size_t i = 0; i < plan.conditional.size(); ++i) {
         if (is_hidden(plan.conditional[i].query)) continue;
         one.opaque.assign(1, plan.conditional[i].range);
         executor.draw(one, buffers, above,
                       {gl::Submission::Plain, call_colour(plan.opaque.size() + i, false)});
     }
-    executor.draw(objects, buffers, above, {gl::Submission::Plain, call_colour(0, false)});
+    executor.draw(objects, buffers, above,
+                  {gl::Submission::Plain, call_colour(0, false), nullptr, placements});
     gl::Lines boxes;
     if (plan.queries.empty())
-        for (const std::uint32_t chosen : plan.chosen)
-            boxes.add_box(planner.bounds_of(chosen), buffers.origin());
+        for (const std::uint32_t chosen : plan.chosen) boxes.add_box(bounds_of(chosen), buffers.origin());
     lines_.draw(boxes, above, kBoxes);
     lines_.draw(boxes_answered(plan, answers, false, buffers.origin()), above, kHidden);
     lines_.draw(boxes_answered(plan, answers, true, buffers.origin()), above, kSeen);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "rhview/gl/executor.h"
@@ -21,11 +22,11 @@ class ViewFromAbove {
 
     /// `everything` and `plan` are for the same buffers; `bounds` is the scene's, relative to the buffers'
     /// origin. `to_show` is what `plan` must show: the rest of its base ranges are bridged gaps; empty:
-    /// nothing is known of gaps.
+    /// nothing is known of gaps. `bounds_of`: boxes of what the plan's method chose.
     gl::Picture draw(const FramePlan& everything, const FramePlan& plan, std::span<const QueryAnswer> answers,
-                     std::span<const DrawRange> to_show, const FramePlanner& planner,
+                     std::span<const DrawRange> to_show, const std::function<Aabb(std::uint32_t)>& bounds_of,
                      const gl::SceneBuffers& buffers, const Aabb& bounds, const View& view,
-                     gl::Executor& executor);
+                     std::span<const glm::dmat4> placements, gl::Executor& executor);
 
   private:
     ViewFromAbove(gl::RenderTarget target, gl::LineDrawer lines);

@@ -87,6 +87,15 @@ void add_walk(CLI::App& app, WalkOptions& options) {
                      "only), boxes (box pass only), off")
         ->type_name("W")
         ->capture_default_str();
+    walk->add_option("--hierarchy", options.hierarchy,
+                     "chc and chc++: what is culled: bvh (over the scene's objects), octree, auto (the one "
+                     "that was faster on the named scenes)")
+        ->type_name("H")
+        ->capture_default_str();
+    walk->add_option("--tune", options.tune,
+                     "Parameters of chc++ (batch, visible-frames, tight-depth, tight-area, visible-query) "
+                     "and nested-grid (levels, top-cells, inner-cells); docs/rivals.md")
+        ->type_name("KEY=VALUE,…");
     walk->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
         ->type_name("FILE");
     walk->add_option(

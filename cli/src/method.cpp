@@ -13,6 +13,14 @@
 namespace rhview::cli {
 namespace {
 
+/// With the paper's rule for what is asked about.
+OcclusionOptions papers(OcclusionOptions options) {
+    options.settings.policy = OcclusionPolicy::Paper;
+    return options;
+}
+
+}  // namespace
+
 std::vector<StaticObject> static_objects(const Scene& scene) {
     std::vector<StaticObject> objects;
     objects.reserve(scene.static_objects());
@@ -24,14 +32,6 @@ std::vector<StaticObject> static_objects(const Scene& scene) {
     }
     return objects;
 }
-
-/// With the paper's rule for what is asked about.
-OcclusionOptions papers(OcclusionOptions options) {
-    options.settings.policy = OcclusionPolicy::Paper;
-    return options;
-}
-
-}  // namespace
 
 // The rivals' octree is the paper's: leaves in source order, no replicas.
 OctreeOptions octree_options_of(std::string_view method, const Scene& scene, const MethodOptions& options) {
@@ -47,10 +47,15 @@ OctreeOptions octree_options_of(std::string_view method, const Scene& scene, con
 }
 
 std::vector<std::string> method_names() {
-    return {"none", "frustum", "octree", "rhview-seed", "rhview"};
+    return {"none", "frustum", "octree", "nested-grid", "chc", "chc++", "rhview-seed", "rhview"};
+}
+
+Aabb PreparedMethod::bounds_of(std::uint32_t chosen) const {
+    return rival ? rival->method->bounds_of(chosen) : planner->bounds_of(chosen);
 }
 
 std::span<const std::uint32_t> PreparedMethod::static_indices() const {
+    if (rival) return rival->indices;
     return octree != nullptr ? octree->indices() : std::span<const std::uint32_t>();
 }
 
@@ -70,6 +75,17 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
     }
     if (method == "frustum") {
         prepared.planner = std::make_unique<FrustumObjects>(static_objects(scene));
+        return prepared;
+    }
+    if (is_interactive(method)) {
+        RivalOptions rival_options = options.rival;
+        rival_options.leaf_triangles = options.max_leaf_triangles;
+        const gl::WallTimer timer;
+        Result<PreparedRival> rival = prepare_rival(method, scene, rival_options, baked);
+        if (!rival) return rival.error();
+        prepared.rival = std::move(rival).value();
+        prepared.max_leaf_triangles = prepared.rival->leaf_triangles;
+        prepared.build_ms = timer.elapsed_ms();
         return prepared;
     }
     if (baked != nullptr) {

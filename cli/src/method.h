@@ -15,19 +15,22 @@
 #include "rhview/pipeline/node_visibility.h"
 #include "rhview/rhoctree/baked_octree.h"
 #include "rhview/scenes/scene.h"
+#include "rivals.h"
 
 namespace rhview::cli {
 
 /// The methods' names, in the order they are listed to people.
 std::vector<std::string> method_names();
 
-/// A culling method made ready for a scene.
+/// A culling method made ready for a scene: a planner, or one that draws and asks in turns.
 struct PreparedMethod {
     std::unique_ptr<RhOctree> octree;  ///< null where the method needs none
     std::unique_ptr<FramePlanner> planner;
+    std::optional<PreparedRival> rival;  ///< instead of a planner and its octree
     std::optional<double> build_ms;
     std::optional<std::uint32_t> max_leaf_triangles;
 
+    [[nodiscard]] Aabb bounds_of(std::uint32_t chosen) const;
     /// The order of the static indices that the plans refer to; empty: the scene's own.
     [[nodiscard]] std::span<const std::uint32_t> static_indices() const;
 };
@@ -38,7 +41,11 @@ struct MethodOptions {
     double replica_budget = 1.0;                      ///< of `rhview`, times the source's index bytes
     DrawCosts costs;                                  ///< what `rhview` plans by
     std::optional<OcclusionOptions> occlusion;        ///< of `rhview` and `rhview-seed`; absent: asks nothing
+    RivalOptions rival;                               ///< of chc, chc++ and nested-grid
 };
+
+/// What the scene's author placed, in the order of the batches.
+std::vector<StaticObject> static_objects(const Scene& scene);
 
 /// What `method` has its octree built with.
 OctreeOptions octree_options_of(std::string_view method, const Scene& scene, const MethodOptions& options);

@@ -39,6 +39,8 @@ struct WalkOptions {
     std::string method = "rhview";
     std::string mode = "exact";
     std::string occlusion = "auto";
+    std::string hierarchy = "auto";
+    std::string tune;
     std::string submission = "plain";
     std::string size = "1280x720";
     std::optional<std::filesystem::path> path;

@@ -54,6 +54,27 @@ Json missing_pixels_json(const WalkReport& report) {
             {"checked_frames", report.checked_frames()}};
 }
 
+Json reveal_frames_json(const WalkReport& report) {
+    if (!report.reveal_frames) return nullptr;
+    if (report.reveal_frames->empty()) return {{"items", 0}};
+    const Statistics s = summarise(*report.reveal_frames);
+    return {{"items", report.reveal_frames->size()},
+            {"mean", s.mean},
+            {"median", s.median},
+            {"p95", s.p95},
+            {"max", s.max}};
+}
+
+std::string reveal_frames_line(const WalkReport& report) {
+    if (!report.reveal_frames) return "";
+    if (report.reveal_frames->empty()) return "  nothing that is seen was left out\n";
+    const Statistics s = summarise(*report.reveal_frames);
+    return fmt::format(
+        "  left out though seen: {} times a leaf or object, for {:.0f} frame{} in the median, {:.0f} at p95, "
+        "{:.0f} at most\n",
+        report.reveal_frames->size(), s.median, s.median == 1.0 ? "" : "s", s.p95, s.max);
+}
+
 /// |predicted - measured| / measured.
 template <class Field>
 Statistics prediction_errors(const WalkReport& report, Field predicted_ms) {
@@ -67,7 +88,7 @@ constexpr auto kRunningPredicted = [](const FrameRecord& f) { return f.running_p
 
 template <class Field>
 Json prediction_error_json(const WalkReport& report, Field predicted_ms) {
-    if (!report.profile) return nullptr;
+    if (!report.profile || report.in_steps) return nullptr;
     const Statistics s = prediction_errors(report, predicted_ms);
     return {{"median", s.median}, {"p95", s.p95}};
 }
@@ -113,17 +134,27 @@ void add_occlusion(const WalkReport& report, Json& summary) {
         summary[name] = occlusion_statistics(report, field);
     };
     add("query_boxes", [](const OcclusionRecord& o, const FrameRecord&) { return o.boxes; });
-    add("box_pass_queries", [](const OcclusionRecord& o, const FrameRecord&) { return o.box_pass_queries; });
-    add("conditional_draws",
-        [](const OcclusionRecord& o, const FrameRecord&) { return o.conditional_draws; });
-    add("conditional_ranges",
-        [](const OcclusionRecord& o, const FrameRecord&) { return o.conditional_ranges; });
-    add("executed_ranges", [](const OcclusionRecord& o, const FrameRecord&) { return o.executed_ranges; });
-    add("skipped_indices", [](const OcclusionRecord& o, const FrameRecord&) { return o.skipped_indices; });
     add("hidden_fraction", kHiddenFraction);
-    add("exploration_share", kExplorationShare);
-    add("query_predicted_ms", [](const OcclusionRecord& o, const FrameRecord&) { return o.query_ms; });
-    add("saved_predicted_ms", [](const OcclusionRecord& o, const FrameRecord&) { return o.saved_ms; });
+    add("waits", [](const OcclusionRecord& o, const FrameRecord&) { return o.waits; });
+    // What is drawn and asked in turns hangs on no query, and no model decided about it.
+    const auto add_planned = [&](const char* name, auto field) {
+        report.in_steps ? void(summary[name] = nullptr) : add(name, field);
+    };
+    add_planned("box_pass_queries",
+                [](const OcclusionRecord& o, const FrameRecord&) { return o.box_pass_queries; });
+    add_planned("conditional_draws",
+                [](const OcclusionRecord& o, const FrameRecord&) { return o.conditional_draws; });
+    add_planned("conditional_ranges",
+                [](const OcclusionRecord& o, const FrameRecord&) { return o.conditional_ranges; });
+    add_planned("executed_ranges",
+                [](const OcclusionRecord& o, const FrameRecord&) { return o.executed_ranges; });
+    add_planned("skipped_indices",
+                [](const OcclusionRecord& o, const FrameRecord&) { return o.skipped_indices; });
+    add_planned("exploration_share", kExplorationShare);
+    add_planned("query_predicted_ms",
+                [](const OcclusionRecord& o, const FrameRecord&) { return o.query_ms; });
+    add_planned("saved_predicted_ms",
+                [](const OcclusionRecord& o, const FrameRecord&) { return o.saved_ms; });
     summary["blocking_reads"] = report.has_occlusion() ? Json(report.blocking_reads) : Json(nullptr);
     summary["lost_queries"] = report.has_occlusion() ? Json(report.lost_queries) : Json(nullptr);
 }
@@ -178,7 +209,7 @@ Json summary_json(const WalkReport& report) {
     summary["gpu_ms"] = has_gpu
                             ? statistics(report, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); })
                             : Json(nullptr);
-    const bool predicted = report.profile.has_value();
+    const bool predicted = report.profile.has_value() && !report.in_steps;
     summary["predicted_ms"] =
         predicted ? statistics(report, [](const FrameRecord& f) { return f.predicted_ms.value_or(0.0); })
                   : Json(nullptr);
@@ -192,6 +223,7 @@ Json summary_json(const WalkReport& report) {
                       : Json(nullptr);
     summary["lod_error_px"] = nullptr;
     summary["missing_pixels"] = missing_pixels_json(report);
+    summary["reveal_frames"] = reveal_frames_json(report);
     summary["plan_hash"] = fmt::format("{:016x}", report.plan_hash);
     return summary;
 }
@@ -203,6 +235,7 @@ std::string table_row(const char* name, int decimals, const std::vector<double>&
 }
 
 std::string timing_line(const WalkReport& report) {
+    if (report.in_steps) return "  no prediction: the model has no price for waiting\n";
     if (!report.profile) return fmt::format("  no prediction: {}\n", report.why_no_profile);
     const TimingProfile& constants = report.profile->constants;
     const Statistics error = prediction_errors(report, kPredicted);
@@ -216,6 +249,7 @@ std::string timing_line(const WalkReport& report) {
 Json occlusion_json(const std::optional<OcclusionRecord>& o) {
     if (!o) return nullptr;
     return {{"candidates", o->candidates},
+            {"waits", o->waits},
             {"boxes", o->boxes},
             {"hidden", o->hidden},
             {"box_pass_queries", o->box_pass_queries},
@@ -229,6 +263,7 @@ Json occlusion_json(const std::optional<OcclusionRecord>& o) {
 }
 
 std::string method_line(const WalkReport& report) {
+    if (report.in_steps) return report.method;
     if (!report.has_occlusion()) return report.method + (report.occlusion == "off" ? " without queries" : "");
     std::string line = report.method;
     if (report.mode != "exact") line += ", " + report.mode;
@@ -289,7 +324,9 @@ std::string to_json(const WalkReport& report) {
     json["leaf"] = or_null(report.leaf);
     json["frames"] = report.frames.size();
     json["size"] = {report.width, report.height};
+    const bool has_tree = !report.build.hierarchy.empty();
     json["build"] = {{"ms", or_null(report.build.ms)},
+                     {"hierarchy", has_tree ? Json(report.build.hierarchy) : Json(nullptr)},
                      {"load_ms", or_null(report.build.load_ms)},
                      {"nodes", or_null(report.build.nodes)},
                      {"leaves", or_null(report.build.leaves)},
@@ -299,6 +336,7 @@ std::string to_json(const WalkReport& report) {
                      {"index_bytes", report.build.index_bytes},
                      {"vertex_bytes", report.build.vertex_bytes}};
     json["summary"] = summary_json(report);
+    const auto counted = [&](double value) { return report.in_steps ? Json(nullptr) : Json(count(value)); };
     json["per_frame"] = Json::array();
     for (const FrameRecord& f : report.frames)
         json["per_frame"].push_back({{"frame", f.frame},
@@ -306,9 +344,9 @@ std::string to_json(const WalkReport& report) {
                                      {"sub_draws", count(f.work.sub_draws)},
                                      {"indices", count(f.work.indices)},
                                      {"material_changes", count(f.work.material_changes)},
-                                     {"primitives", count(f.work.primitives)},
-                                     {"fragments", count(f.work.fragments)},
-                                     {"passed_samples", count(f.work.passed_samples)},
+                                     {"primitives", counted(f.work.primitives)},
+                                     {"fragments", counted(f.work.fragments)},
+                                     {"passed_samples", counted(f.work.passed_samples)},
                                      {"queries", count(f.work.queries)},
                                      {"occlusion", occlusion_json(f.occlusion)},
                                      {"nodes_visited", f.nodes_visited},
@@ -318,7 +356,8 @@ std::string to_json(const WalkReport& report) {
                                      {"predicted_ms", or_null(f.predicted_ms)},
                                      {"running_predicted_ms", or_null(f.running_predicted_ms)},
                                      {"visible_set_indices", or_null(f.visible_set_indices)},
-                                     {"missing_pixels", or_null(f.missing_pixels)}});
+                                     {"missing_pixels", or_null(f.missing_pixels)},
+                                     {"late_items", or_null(f.late_items)}});
     // A file name need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -326,13 +365,14 @@ std::string to_json(const WalkReport& report) {
 std::string to_csv(const WalkReport& report) {
     std::string csv =
         "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels,predicted_"
-        "ms\n";
+        "ms,queries\n";
     for (const FrameRecord& f : report.frames) {
-        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{}\n", f.frame, count(f.work.draw_calls),
-                           count(f.work.sub_draws), count(f.work.indices), f.nodes_visited, f.cull_ms,
-                           f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
-                           f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
-                           f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "");
+        csv +=
+            fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{},{}\n", f.frame, count(f.work.draw_calls),
+                        count(f.work.sub_draws), count(f.work.indices), f.nodes_visited, f.cull_ms,
+                        f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
+                        f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
+                        f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "", count(f.work.queries));
     }
     return csv;
 }
@@ -347,9 +387,9 @@ std::string to_table(const WalkReport& report) {
     if (const std::string line = instancing_text(report.build.instancing); !line.empty())
         table += "instances: " + line + "\n";
     if (report.build.nodes)
-        table += fmt::format("octree: {} nodes, {} leaves of at most {} triangles, {} in {:.0f} ms\n",
-                             *report.build.nodes, *report.build.leaves, report.leaf.value_or(0),
-                             report.build.load_ms ? "loaded" : "built",
+        table += fmt::format("{}: {} nodes, {} leaves of at most {} triangles, {} in {:.0f} ms\n",
+                             report.build.hierarchy, *report.build.nodes, *report.build.leaves,
+                             report.leaf.value_or(0), report.build.load_ms ? "loaded" : "built",
                              report.build.load_ms.value_or(report.build.ms.value_or(0.0)));
     if (report.build.replica_bytes > 0)
         table += fmt::format(
@@ -376,6 +416,14 @@ std::string to_table(const WalkReport& report) {
         row("queries", 1, [](const FrameRecord& f) { return f.work.queries; });
         of("of them hidden, %", 1,
            [](const OcclusionRecord& o, const FrameRecord& f) { return 100.0 * kHiddenFraction(o, f); });
+        if (report.in_steps)
+            of("waits", 1, [](const OcclusionRecord& o, const FrameRecord&) { return o.waits; });
+    }
+    if (report.has_occlusion() && !report.in_steps) {
+        const auto of = [&](const char* name, int decimals, auto field) {
+            row(name, decimals,
+                [&](const FrameRecord& f) { return field(f.occlusion.value_or(OcclusionRecord{}), f); });
+        };
         of("ranges skipped", 1, [](const OcclusionRecord& o, const FrameRecord&) {
             return o.conditional_ranges - o.executed_ranges;
         });
@@ -389,13 +437,13 @@ std::string to_table(const WalkReport& report) {
         row("instances", 1, [](const FrameRecord& f) { return f.visible_instances; });
     row("cull ms", 3, [](const FrameRecord& f) { return f.cull_ms; });
     row("frame ms", 2, [](const FrameRecord& f) { return f.frame_ms; });
-    if (report.profile)
+    if (report.profile && !report.in_steps)
         row("predicted ms", 2, [](const FrameRecord& f) { return f.predicted_ms.value_or(0.0); });
     if (!report.frames.empty() && report.frames.front().gpu_ms)
         row("GPU ms", 2, [](const FrameRecord& f) { return f.gpu_ms.value_or(0.0); });
     table +=
         fmt::format("\n  everything: {} draw calls, {} indices; plan hash {:016x}\n",
-                    report.scene.batches + report.scene.dynamic_objects + report.scene.static_instances,
+                    report.scene.batches + report.scene.object_groups,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
     table += timing_line(report);
     if (report.has_occlusion())
@@ -406,6 +454,7 @@ std::string to_table(const WalkReport& report) {
     if (const int checked = report.checked_frames(); checked > 0)
         table += fmt::format("  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
                              checked == 1 ? "" : "s");
+    table += reveal_frames_line(report);
     return table;
 }
 

@@ -23,6 +23,7 @@ struct OcclusionRecord {
     std::uint64_t conditional_ranges = 0;  ///< in those
     std::uint64_t executed_ranges = 0;     ///< of those, by the answers
     std::uint64_t skipped_indices = 0;     ///< of the others
+    std::uint64_t waits = 0;               ///< for answers
     double query_ms = 0.0;                 ///< what asking costs by the model
     double exploration_ms = 0.0;
     double saved_ms = 0.0;
@@ -43,6 +44,7 @@ struct FrameRecord {
     std::optional<OcclusionRecord> occlusion;
     std::optional<std::uint64_t> visible_set_indices;  ///< of the leaves that show a pixel
     std::optional<std::uint64_t> missing_pixels;
+    std::optional<std::uint64_t> late_items;  ///< leaves and objects that lack a pixel; latent mode
 };
 
 /// One method along one path: the run of `rhview.walk/1`.
@@ -56,6 +58,7 @@ struct WalkReport {
         std::uint64_t batches = 0;
         std::uint64_t static_instances = 0;
         std::uint64_t instance_triangles = 0;
+        std::uint64_t object_groups = 0;  ///< of objects that can share a call
     } scene;
     struct {
         std::string renderer;
@@ -70,6 +73,7 @@ struct WalkReport {
         std::optional<std::uint64_t> replicas;
         InstancingReport instancing;
         std::optional<double> settle_ms;  ///< to choose and flatten instances; of a baked file, none
+        std::string hierarchy;            ///< "octree", "bvh" or "grid"; empty: none
         std::uint64_t replica_bytes = 0;
         std::uint64_t index_bytes = 0;
         std::uint64_t vertex_bytes = 0;
@@ -84,8 +88,12 @@ struct WalkReport {
     std::string occlusion;                  ///< "auto", "hardware", "boxes" or "off"
     std::optional<QueryCosts> query_costs;  ///< what was asked was priced by
     std::string why_no_occlusion;           ///< where it was wanted and could not be
+    bool in_steps = false;                  ///< drew and asked in turns: nothing was predicted
     std::uint64_t blocking_reads = 0;       ///< of answers, in the whole walk
     std::uint64_t lost_queries = 0;
+    /// Frames for which leaves and objects lacked a pixel, once each time that one did; absent where not
+    /// every frame of latent mode was checked.
+    std::optional<std::vector<double>> reveal_frames;
     std::string method;
     std::string mode;
     std::string submission;

@@ -151,11 +151,12 @@ PlaneMask octant_planes(const TechniqueView& view, const RelativeBox& box) {
 }
 
 bool is_beyond_corners(const TechniqueView& view, const RelativeBox& box) {
-    const Aabb& corners = view.frustum.corner_box;
+    const CornerFrustum::Extent& extent = view.frustum.extents[0];
+    const Aabb& corners = extent.corner_box;
     const bool beyond = box.high.x < corners.min.x || box.high.y < corners.min.y ||
                         box.high.z < corners.min.z || box.low.x > corners.max.x ||
                         box.low.y > corners.max.y || box.low.z > corners.max.z;
-    return beyond && std::isfinite(box.slack);
+    return beyond && box.slack <= kBoxSlack * extent.reach;
 }
 
 }  // namespace rhview

@@ -111,6 +111,22 @@ void BoxDrawer::upload(std::span<const BoxInstance> boxes) {
     glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(boxes.size_bytes()), boxes.data());
 }
 
+std::uint32_t BoxDrawer::append(std::span<const BoxInstance> boxes) {
+    constexpr std::size_t kLeastCapacity = 4096 * sizeof(BoxInstance);
+    glBindBuffer(GL_ARRAY_BUFFER, boxes_.name());
+    if (filled_ + boxes.size_bytes() > capacity_) {
+        // New storage: boxes that are still to be drawn keep the old.
+        capacity_ = std::max({kLeastCapacity, capacity_, 2 * boxes.size_bytes()});
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_), nullptr, GL_STREAM_DRAW);
+        filled_ = 0;
+    }
+    glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(filled_),
+                    static_cast<GLsizeiptr>(boxes.size_bytes()), boxes.data());
+    const auto first = static_cast<std::uint32_t>(filled_ / sizeof(BoxInstance));
+    filled_ += boxes.size_bytes();
+    return first;
+}
+
 void BoxDrawer::begin(const BoxWidener& widener, Effect effect) const {
     const Shader& shader = shaders_[effect == Effect::None ? 0 : 1];
     glUseProgram(shader.program.name());

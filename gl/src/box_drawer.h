@@ -25,6 +25,8 @@ class BoxDrawer {
 
     /// Replaces the boxes to draw from.
     void upload(std::span<const BoxInstance> boxes);
+    /// Adds boxes behind those that are there, and says where they begin. Not to be mixed with `upload`.
+    std::uint32_t append(std::span<const BoxInstance> boxes);
     /// Sets program, vertex array and raster state, but for the depth test, its function and the clip
     /// control.
     void begin(const BoxWidener& widener, Effect effect) const;
@@ -40,7 +42,8 @@ class BoxDrawer {
     Shader shaders_[2];
     VertexArray vertex_array_;
     Buffer boxes_;
-    std::size_t capacity_ = 0;
+    std::size_t capacity_ = 0;  ///< bytes
+    std::size_t filled_ = 0;    ///< of them, by `append`
 };
 
 }  // namespace rhview::gl

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kComputeShader = R"(#version 430 core
 layout(local_size_x = 64) in;
-struct Draw { uint first_index, index_count, slot; };
+struct Draw { uint first_index, index_count, slot, instances, first_instance; };
 struct Command { uint count, instances, first_index, base_vertex, base_instance; };
 layout(std430, binding = 0) readonly buffer Words { uint seen[]; };
 layout(std430, binding = 1) readonly buffer Draws { Draw draws[]; };
@@ -25,7 +25,8 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= draw_count) return;
     Draw draw = draws[i];
-    commands[i] = Command(draw.index_count, seen[draw.slot] != 0u ? 1u : 0u, draw.first_index, 0u, 0u);
+    uint instances = seen[draw.slot] != 0u ? draw.instances : 0u;
+    commands[i] = Command(draw.index_count, instances, draw.first_index, 0u, draw.first_instance);
 }
 )";
 

@@ -18,6 +18,8 @@ struct SlotDraw {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
     std::uint32_t slot = 0;
+    std::uint32_t instances = 1;
+    std::uint32_t first_instance = 0;
 };
 
 /// A word per query that fragments of its boxes set, indirect commands made from them on the device, and the
@@ -35,8 +37,8 @@ class BoxPass {
     void begin_frame() { ++frame_; }
     /// Clears `slots` words and binds them to storage buffer 0.
     void clear(std::size_t slots);
-    /// After the boxes were drawn: makes a command of each draw, with an instance if its slot is set, and
-    /// sends the words of `tickets`, slot by slot, on their way back.
+    /// After the boxes were drawn: makes a command of each draw, with its instances if its slot is set, else
+    /// none, and sends the words of `tickets`, slot by slot, on their way back.
     void decide(std::span<const SlotDraw> draws, std::span<const std::uint64_t> tickets);
     /// Binds the commands for indirect drawing.
     void bind_commands() const;

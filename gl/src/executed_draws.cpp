@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>
+#include <tuple>
 
+#include "object_drawer.h"
 #include "rhview/gl/executor.h"
 
 namespace rhview::gl {
 
 ExecutedDraws count_executed(const FramePlan& plan, const SceneBuffers& scene,
-                             std::span<const QueryAnswer> answers) {
+                             std::span<const QueryAnswer> answers, std::span<const glm::dmat4> placements) {
     enum class Seen : std::uint8_t { Unknown, Yes, No };
     std::vector<QueryAnswer> by_ticket(answers.begin(), answers.end());
     std::ranges::sort(by_ticket, {}, &QueryAnswer::ticket);
@@ -19,15 +21,26 @@ ExecutedDraws count_executed(const FramePlan& plan, const SceneBuffers& scene,
         seen.push_back(!known ? Seen::Unknown : found->visible ? Seen::Yes : Seen::No);
     }
     ExecutedDraws executed;
-    const auto add = [&](std::uint32_t query, std::uint32_t indices) {
+    const auto add = [&](std::uint32_t query, std::uint32_t indices, bool new_range) {
         if (seen[query] == Seen::No) return;
         const bool known = seen[query] == Seen::Yes;
-        (known ? executed.sub_draws : executed.unknown_sub_draws) += 1;
+        (known ? executed.sub_draws : executed.unknown_sub_draws) += new_range ? 1 : 0;
         (known ? executed.indices : executed.unknown_indices) += indices;
     };
-    for (const ConditionalRange& range : plan.conditional) add(range.query, range.range.index_count);
-    for (const ConditionalObject& object : plan.conditional_objects)
-        add(object.query, scene.objects()[index_of(object.object)].index_count);
+    for (const ConditionalRange& range : plan.conditional) add(range.query, range.range.index_count, true);
+    // Neighbours of one mesh, level, mirroring and query are instances of one draw.
+    const auto draw_of = [&](const ConditionalObject& object) {
+        const std::size_t id = index_of(object.object);
+        const ObjectInstance& instance = scene.objects()[id];
+        return std::tuple(object.query, object.level, instance.mesh,
+                          is_mirrored(id < placements.size() ? placements[id] : instance.scene_from_mesh));
+    };
+    for (std::size_t i = 0; i < plan.conditional_objects.size(); ++i) {
+        const ConditionalObject& object = plan.conditional_objects[i];
+        const ObjectInstance& instance = scene.objects()[index_of(object.object)];
+        const bool new_range = i == 0 || draw_of(object) != draw_of(plan.conditional_objects[i - 1]);
+        add(object.query, scene.level_range(instance, object.level).index_count, new_range);
+    }
     return executed;
 }
 

@@ -5,14 +5,11 @@
 
 #include <epoxy/gl.h>
 
-#include <array>
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include "attributes.h"
 #include "box_pass.h"
+#include "object_drawer.h"
 #include "occlusion_tests.h"
 #include "program.h"
 #include "rhview/base/rounding.h"
@@ -50,7 +47,6 @@ constexpr const char* kFragmentShader = R"(#version 430 core
 in vec3 relative;
 in vec3 surface_normal;
 in vec3 surface_colour;
-uniform mat3 normal_matrix;
 uniform vec4 override_colour;
 layout(location = 0) out vec4 pixel;
 void main() {
@@ -61,7 +57,7 @@ void main() {
     } else if (!gl_FrontFacing) {
         n = -n;
     }
-    n = normalize(normal_matrix * n);
+    n = normalize(n);
     float sun = max(dot(n, vec3(0.48, 0.74, 0.47)), 0.0);
     vec3 ambient = mix(vec3(0.20, 0.19, 0.18), vec3(0.40, 0.45, 0.52), n.y * 0.5 + 0.5);
     float grey = dot(surface_colour, vec3(0.3, 0.6, 0.1));
@@ -72,14 +68,6 @@ void main() {
 
 const void* index_offset(std::uint32_t first_index) {
     return reinterpret_cast<const void*>(static_cast<std::uintptr_t>(first_index) * sizeof(std::uint32_t));
-}
-
-bool is_mirrored(const glm::dmat4& matrix) {
-    return glm::determinant(glm::dmat3(matrix)) < 0.0;
-}
-
-DrawRange range_of(const ObjectInstance& object) {
-    return {BatchId{0}, object.first_index, object.index_count};
 }
 
 BatchId batch_of(const DrawRange& range) {
@@ -131,17 +119,19 @@ Result<Executor> Executor::create(const ExecutorOptions& options) {
     if (!tests) return tests.error();
     executor.tests_ = std::make_unique<OcclusionTests>(std::move(tests).value());
     executor.program_ = std::move(program).value();
+    Result<ObjectDrawer> objects = ObjectDrawer::create(kFragmentShader);
+    if (!objects) return objects.error();
+    executor.objects_ = std::make_unique<ObjectDrawer>(std::move(objects).value());
     executor.clip_control_ = has_clip_control();
     const auto location = [&](const char* name) {
         return glGetUniformLocation(executor.program_.name(), name);
     };
     executor.uniforms_ = {location("clip_from_relative"), location("eye_high"), location("eye_low"),
-                          location("normal_matrix"), location("override_colour")};
+                          location("override_colour")};
     return executor;
 }
 
-void Executor::begin(const View& view, const DrawOptions& options) const {
-    glUseProgram(program_.name());
+void Executor::begin(const View& view) const {
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     const bool reversed = view.clip_depth == ClipDepth::ReversedZeroToOne;
@@ -151,24 +141,18 @@ void Executor::begin(const View& view, const DrawOptions& options) const {
     if (clip_control_)
         glClipControl(GL_LOWER_LEFT, view.clip_depth == ClipDepth::NegativeOneToOne ? GL_NEGATIVE_ONE_TO_ONE
                                                                                     : GL_ZERO_TO_ONE);
-    const glm::vec3 colour = options.colour.value_or(glm::vec3(0.0f));
-    glUniform4f(uniforms_.override_colour, colour.r, colour.g, colour.b, options.colour ? 1.0f : 0.0f);
 }
 
-void Executor::set_transform(const View& view, const glm::dvec3& origin,
-                             const glm::dmat4& scene_from_mesh) const {
-    const glm::dmat3 linear(scene_from_mesh);
-    const glm::dvec3 eye = glm::inverse(linear) * (view.eye() - origin - glm::dvec3(scene_from_mesh[3]));
-    const SplitPosition split = split_position(eye);
-    const glm::mat4 clip(view.clip_from_eye_relative() * glm::dmat4(linear));
-    const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                              glm::cross(linear[0], linear[1]));
-    const glm::mat3 normals(is_mirrored(scene_from_mesh) ? -cofactor : cofactor);
+void Executor::begin_static(const View& view, const glm::dvec3& origin, const DrawOptions& options) const {
+    const SplitPosition eye = split_position(view.eye() - origin);
+    const glm::mat4 clip(view.clip_from_eye_relative());
+    const glm::vec3 colour = options.colour.value_or(glm::vec3(0.0f));
+    glUseProgram(program_.name());
     glUniformMatrix4fv(uniforms_.clip_from_relative, 1, GL_FALSE, glm::value_ptr(clip));
-    glUniform3fv(uniforms_.eye_high, 1, glm::value_ptr(split.high));
-    glUniform3fv(uniforms_.eye_low, 1, glm::value_ptr(split.low));
-    glUniformMatrix3fv(uniforms_.normal_matrix, 1, GL_FALSE, glm::value_ptr(normals));
-    glFrontFace(is_mirrored(scene_from_mesh) ? GL_CW : GL_CCW);
+    glUniform3fv(uniforms_.eye_high, 1, glm::value_ptr(eye.high));
+    glUniform3fv(uniforms_.eye_low, 1, glm::value_ptr(eye.low));
+    glUniform4f(uniforms_.override_colour, colour.r, colour.g, colour.b, options.colour ? 1.0f : 0.0f);
+    glFrontFace(GL_CCW);
 }
 
 void Executor::set_state(const DrawState& state) {
@@ -198,26 +182,28 @@ std::uint64_t Executor::draw_ranges(std::span<const DrawRange> ranges, Submissio
 }
 
 void Executor::draw_at_once(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                            Submission submission, FrameCounters& counters) {
-    set_transform(view, scene.origin(), glm::dmat4(1.0));
+                            const DrawOptions& options, FrameCounters& counters) {
+    begin_static(view, scene.origin(), options);
     for (std::size_t first = 0; first < plan.opaque.size();) {
         const std::size_t end = end_of_batch(plan.opaque, first);
         const auto ranges = std::span(plan.opaque).subspan(first, end - first);
         set_state(scene.batches()[index_of(ranges.front().batch)]);
         ++counters.material_changes;
-        counters.draw_calls += draw_ranges(ranges, submission);
+        counters.draw_calls += draw_ranges(ranges, options.submission);
         counters.sub_draws += ranges.size();
         for (const DrawRange& range : ranges) counters.indices += range.index_count;
         first = end;
     }
-    for (const ObjectId id : plan.objects) {
-        const ObjectInstance& object = scene.objects()[index_of(id)];
-        set_state(object.state);
+    if (objects_->at_once().empty()) return;
+    objects_->begin(options.colour);
+    for (const ObjectRun& run : objects_->at_once()) {
+        objects_->set_state(run);
+        ObjectDrawer::draw(run);
         ++counters.material_changes;
-        set_transform(view, scene.origin(), object.scene_from_mesh);
-        counters.draw_calls += draw_ranges(std::array{range_of(object)}, Submission::Plain);
+        ++counters.draw_calls;
         ++counters.sub_draws;
-        counters.indices += object.index_count;
+        counters.instances += run.instances;
+        counters.indices += run.indices();
     }
 }
 
@@ -246,48 +232,60 @@ void Executor::draw_conditional_batch(std::span<const ConditionalRange> ranges, 
     ++counters.indirect_calls;
 }
 
-void Executor::draw_conditional_object(const ConditionalObject& conditional, const ObjectInstance& object,
-                                       std::size_t& command, FrameCounters& counters) {
-    ++counters.conditional_draws;
-    ++counters.conditional_sub_draws;
-    counters.conditional_indices += object.index_count;
-    if (tests_->is_indirect(conditional.query)) {
-        glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, BoxPass::command_offset(command++));
+void Executor::draw_conditional_objects(std::size_t& command, FrameCounters& counters) {
+    const std::span<const ObjectRun> runs = objects_->conditional();
+    for (std::size_t first = 0; first < runs.size();) {
+        objects_->set_state(runs[first]);
+        ++counters.material_changes;
+        GLsizei indirect = 0;
+        std::size_t end = first;
+        for (; end < runs.size() && runs[end].shares_state(runs[first]); ++end) {
+            ++counters.conditional_sub_draws;
+            counters.conditional_instances += runs[end].instances;
+            counters.conditional_indices += runs[end].indices();
+            if (tests_->is_indirect(runs[end].query)) {
+                ++indirect;
+                continue;
+            }
+            const Condition condition(tests_->condition(runs[end].query));
+            ObjectDrawer::draw(runs[end]);
+            ++counters.conditional_draws;
+        }
+        first = end;
+        if (indirect == 0) continue;
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, BoxPass::command_offset(command), indirect,
+                                    0);
+        command += static_cast<std::size_t>(indirect);
+        ++counters.conditional_draws;
         ++counters.indirect_calls;
-        return;
     }
-    const Condition condition(tests_->condition(conditional.query));
-    draw_ranges(std::array{range_of(object)}, Submission::Plain);
 }
 
 void Executor::draw_conditional(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                                Submission submission, FrameCounters& counters) {
+                                const DrawOptions& options, FrameCounters& counters) {
     std::size_t command = 0;
     tests_->bind_commands();
-    set_transform(view, scene.origin(), glm::dmat4(1.0));
+    begin_static(view, scene.origin(), options);
     for (std::size_t first = 0; first < plan.conditional.size();) {
         const std::size_t end = end_of_batch(plan.conditional, first);
         set_state(scene.batches()[index_of(plan.conditional[first].range.batch)]);
         ++counters.material_changes;
-        draw_conditional_batch(std::span(plan.conditional).subspan(first, end - first), submission, command,
-                               counters);
+        draw_conditional_batch(std::span(plan.conditional).subspan(first, end - first), options.submission,
+                               command, counters);
         first = end;
     }
-    for (const ConditionalObject& conditional : plan.conditional_objects) {
-        const ObjectInstance& object = scene.objects()[index_of(conditional.object)];
-        set_state(object.state);
-        ++counters.material_changes;
-        set_transform(view, scene.origin(), object.scene_from_mesh);
-        draw_conditional_object(conditional, object, command, counters);
-    }
+    if (objects_->conditional().empty()) return;
+    objects_->begin(options.colour);
+    draw_conditional_objects(command, counters);
 }
 
 FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                              const DrawOptions& options) {
     const StateGuard guard(clip_control_);
     FrameCounters counters;
-    begin(view, options);
-    draw_at_once(plan, scene, view, options.submission, counters);
+    begin(view);
+    objects_->place(plan, scene, view, options.placements);
+    draw_at_once(plan, scene, view, options, counters);
     tests_->begin_frame();
     if (plan.queries.empty()) {
         RHVIEW_ASSERT(plan.conditional.empty() && plan.conditional_objects.empty());
@@ -295,11 +293,11 @@ FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, c
     }
     const QueryStateGuard query_guard;
     if (options.counter != nullptr) options.counter->pause();
-    tests_->ask(plan, scene, view, counters);
+    tests_->ask(plan, scene, view, *objects_, counters);
     if (options.counter != nullptr) options.counter->resume();
     query_guard.put_back_raster_state();
-    begin(view, options);
-    draw_conditional(plan, scene, view, options.submission, counters);
+    begin(view);
+    draw_conditional(plan, scene, view, options, counters);
     return counters;
 }
 

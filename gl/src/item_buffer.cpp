@@ -36,8 +36,6 @@ layout(location = 0) out uint pixel;
 void main() { pixel = item; }
 )";
 
-constexpr std::uint32_t kNothing = 0;  ///< in a pixel; items are counted from 1 there
-
 }  // namespace
 
 Result<ItemBuffer> ItemBuffer::create(int width, int height) {
@@ -74,7 +72,7 @@ void ItemBuffer::begin(const View& view) const {
     if (has_clip_control())
         glClipControl(GL_LOWER_LEFT, view.clip_depth == ClipDepth::NegativeOneToOne ? GL_NEGATIVE_ONE_TO_ONE
                                                                                     : GL_ZERO_TO_ONE);
-    const GLuint nothing[4] = {kNothing, 0, 0, 0};
+    const GLuint nothing[4] = {kNoItem, 0, 0, 0};
     const GLfloat farthest = reversed ? 0.0f : 1.0f;
     glClearBufferuiv(GL_COLOR, 0, nothing);
     glClearBufferfv(GL_DEPTH, 0, &farthest);
@@ -93,36 +91,48 @@ void ItemBuffer::set_transform(const View& view, const glm::dvec3& origin,
 }
 
 void ItemBuffer::draw(const DrawState& state, std::uint32_t first_index, std::uint32_t index_count,
-                      std::uint32_t number) const {
+                      std::uint32_t item) const {
     glBindVertexArray(state.vertex_array);
     state.two_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    glUniform1ui(uniforms_.item, number);
+    glUniform1ui(uniforms_.item, item);
     const auto offset = static_cast<std::uintptr_t>(first_index) * sizeof(std::uint32_t);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_count), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(offset));
 }
 
-std::vector<std::uint32_t> ItemBuffer::visible_items(std::span<const ItemRange> ranges,
-                                                     const SceneBuffers& scene, const View& view) {
+std::span<const std::uint32_t> ItemBuffer::item_pixels(std::span<const ItemRange> ranges,
+                                                       std::uint32_t first_object, const SceneBuffers& scene,
+                                                       const View& view,
+                                                       std::span<const glm::dmat4> placements) {
     const StateGuard state_guard(has_clip_control());
     const TargetGuard target_guard;
     begin(view);
     set_transform(view, scene.origin(), glm::dmat4(1.0));
     for (const ItemRange& part : ranges)
         draw(scene.batches()[index_of(part.range.batch)], part.range.first_index, part.range.index_count,
-             part.item + 1);
-    for (const ObjectInstance& object : scene.objects()) {
-        set_transform(view, scene.origin(), object.scene_from_mesh);
-        draw(object.state, object.first_index, object.index_count, kNothing);
+             part.item);
+    std::uint32_t item = first_object;
+    for (std::size_t i = 0; i < scene.objects().size(); ++i) {
+        const ObjectInstance& object = scene.objects()[i];
+        set_transform(view, scene.origin(), i < placements.size() ? placements[i] : object.scene_from_mesh);
+        draw(object.state, object.first_index, object.index_count, item);
+        if (first_object != kNoItem) ++item;
     }
     pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
     glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels_.data());
+    return pixels_;
+}
+
+std::vector<std::uint32_t> ItemBuffer::visible_items(std::span<const ItemRange> ranges,
+                                                     const SceneBuffers& scene, const View& view,
+                                                     std::span<const glm::dmat4> placements) {
+    item_pixels(ranges, kNoItem, scene, view, placements);
     std::ranges::sort(pixels_);
     std::vector<std::uint32_t> seen;
-    for (const std::uint32_t number : pixels_)
-        if (number != kNothing && (seen.empty() || seen.back() != number - 1)) seen.push_back(number - 1);
+    for (const std::uint32_t item : pixels_)
+        if (item != kNoItem && (seen.empty() || seen.back() != item)) seen.push_back(item);
     return seen;
 }
 

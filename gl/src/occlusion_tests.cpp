@@ -6,44 +6,12 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "raster_precision.h"
 #include "rhview/base/assert.h"
 #include "rhview/gl/query_boxes.h"
 
 namespace rhview::gl {
-namespace {
-
-/// Step of the bound framebuffer's depth; 0 if it is a floating-point one, or there is none.
-double depth_step() {
-    GLint framebuffer = 0, type = GL_NONE, bits = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
-    const GLenum attachment = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
-    const auto read = [&](GLenum name, GLint& value) {
-        glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, name, &value);
-    };
-    read(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, type);
-    if (type == GL_NONE) return 0.0;
-    read(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, type);
-    if (type == GL_FLOAT) return 0.0;
-    read(GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE, bits);
-    return std::exp2(-bits);
-}
-
-RasterPrecision raster_precision(int subpixel_bits) {
-    GLint viewport[4] = {};
-    glGetIntegerv(GL_VIEWPORT, viewport);
-    return {std::max(viewport[2], 1), std::max(viewport[3], 1), subpixel_bits, depth_step()};
-}
-
-double largest_growth(const FramePlan& plan, const SceneBuffers& scene) {
-    double growth = 1.0;
-    for (const ConditionalObject& object : plan.conditional_objects)
-        growth = std::max(growth, rounding_growth(scene.objects()[index_of(object.object)].scene_from_mesh));
-    return growth;
-}
-
-}  // namespace
 
 OcclusionTests::OcclusionTests(BoxDrawer drawer, QueryPool pool)
     : drawer_(std::move(drawer)), pool_(std::move(pool)) {}
@@ -58,9 +26,7 @@ Result<OcclusionTests> OcclusionTests::create(std::uint32_t lost_after_frames) {
         if (!box_pass) return box_pass.error();
         tests.box_pass_ = std::move(box_pass).value();
     }
-    GLint bits = 0;
-    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-    tests.subpixel_bits_ = std::max(bits, 1);
+    tests.subpixel_bits_ = subpixel_bits();
     return tests;
 }
 
@@ -70,15 +36,15 @@ void OcclusionTests::begin_frame() {
 }
 
 void OcclusionTests::ask(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                         FrameCounters& counters) {
+                         const ObjectDrawer& objects, FrameCounters& counters) {
     counters.queries += plan.queries.size();
-    const BoxWidener widener(view, scene.origin(), raster_precision(subpixel_bits_),
-                             largest_growth(plan, scene));
+    const BoxWidener widener(view, scene.origin(), bound_raster_precision(subpixel_bits_),
+                             objects.largest_growth());
     place_boxes(plan, widener);
     if (!boxes_.empty()) drawer_.upload(boxes_);
     counters.query_boxes += boxes_.size();
     if (first_marking_ != 0) ask_hardware(plan, widener, counters);
-    collect_draws(plan, scene);
+    collect_draws(plan, objects);
     if (!slots_.empty()) ask_box_pass(widener, counters);
 }
 
@@ -123,17 +89,16 @@ void OcclusionTests::ask_hardware(const FramePlan& plan, const BoxWidener& widen
     }
 }
 
-void OcclusionTests::collect_draws(const FramePlan& plan, const SceneBuffers& scene) {
+void OcclusionTests::collect_draws(const FramePlan& plan, const ObjectDrawer& objects) {
     draws_.clear();
     for (const ConditionalRange& conditional : plan.conditional)
         if (is_indirect(conditional.query))
             draws_.push_back({conditional.range.first_index, conditional.range.index_count,
                               fates_[conditional.query].slot});
-    for (const ConditionalObject& conditional : plan.conditional_objects)
-        if (is_indirect(conditional.query)) {
-            const ObjectInstance& object = scene.objects()[index_of(conditional.object)];
-            draws_.push_back({object.first_index, object.index_count, fates_[conditional.query].slot});
-        }
+    for (const ObjectRun& run : objects.conditional())
+        if (is_indirect(run.query))
+            draws_.push_back({run.range.first_index, run.range.index_count, fates_[run.query].slot,
+                              run.instances, run.first_instance});
 }
 
 void OcclusionTests::ask_box_pass(const BoxWidener& widener, FrameCounters& counters) {

@@ -10,6 +10,7 @@
 
 #include "box_drawer.h"
 #include "box_pass.h"
+#include "object_drawer.h"
 #include "rhview/gl/executor.h"
 #include "rhview/gl/query_pool.h"
 #include "rhview/gl/scene_buffers.h"
@@ -27,14 +28,15 @@ class OcclusionTests {
     void begin_frame();
     /// Asks all queries of `plan` against the depth in the bound framebuffer, whose depth test is set up.
     /// Changes what `BoxDrawer::begin` sets, and buffer bindings.
-    void ask(const FramePlan& plan, const SceneBuffers& scene, const View& view, FrameCounters& counters);
+    void ask(const FramePlan& plan, const SceneBuffers& scene, const View& view, const ObjectDrawer& objects,
+             FrameCounters& counters);
 
     /// The OpenGL name of the query of this plan if conditional rendering decides; else 0.
     [[nodiscard]] std::uint32_t condition(std::uint32_t query) const { return fates_[query].name; }
     /// Whether an indirect command decides.
     [[nodiscard]] bool is_indirect(std::uint32_t query) const { return fates_[query].slot != kNoSlot; }
-    /// There is a command for each indirect one of the conditional ranges, then of the conditional objects,
-    /// in the order of the plan.
+    /// There is a command for each indirect one of the conditional ranges, then of the conditional runs of
+    /// objects, in the order of the plan.
     void bind_commands() const;
 
     void poll(std::vector<QueryAnswer>& answers);
@@ -56,7 +58,7 @@ class OcclusionTests {
     void place_query(const PlannedQuery& query, const FramePlan& plan, const BoxWidener& widener, Fate& fate);
     void ask_hardware(const FramePlan& plan, const BoxWidener& widener, FrameCounters& counters);
     void ask_box_pass(const BoxWidener& widener, FrameCounters& counters);
-    void collect_draws(const FramePlan& plan, const SceneBuffers& scene);
+    void collect_draws(const FramePlan& plan, const ObjectDrawer& objects);
 
     BoxDrawer drawer_;
     QueryPool pool_;

@@ -6,6 +6,8 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "attributes.h"
 #include "rhview/gl/context.h"
 #include "state_guard.h"
@@ -34,41 +36,61 @@ void enable_attribute(GLuint index, GLint size, GLenum type, GLboolean normalize
 }
 
 /// One stream after the other in one buffer: positions, then normals, then colours.
-VertexArray make_vertex_array(const VertexPool& pool, GLuint index_buffer, Buffer& buffer) {
+Buffer make_vertex_buffer(const VertexPool& pool) {
+    Buffer buffer = make_buffer(GL_ARRAY_BUFFER, pool.bytes());
+    std::size_t offset = 0;
+    write<glm::vec3>(GL_ARRAY_BUFFER, offset, pool.positions);
+    if (!pool.normals.empty()) write<PackedNormal>(GL_ARRAY_BUFFER, offset, pool.normals);
+    if (!pool.colours.empty()) write<PackedColour>(GL_ARRAY_BUFFER, offset, pool.colours);
+    return buffer;
+}
+
+VertexArray make_vertex_array(const VertexPool& pool, const Buffer& vertices, const Buffer& indices) {
     GLuint name = 0;
     glGenVertexArrays(1, &name);
     glBindVertexArray(name);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer);
-    buffer = make_buffer(GL_ARRAY_BUFFER, pool.bytes());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
+    glBindBuffer(GL_ARRAY_BUFFER, vertices.name());
     std::size_t offset = 0;
     enable_attribute(kPositionAttribute, 3, GL_FLOAT, GL_FALSE, offset);
-    write<glm::vec3>(GL_ARRAY_BUFFER, offset, pool.positions);
-    if (!pool.normals.empty()) {
-        enable_attribute(kNormalAttribute, 4, GL_INT_2_10_10_10_REV, GL_TRUE, offset);
-        write<PackedNormal>(GL_ARRAY_BUFFER, offset, pool.normals);
-    }
-    if (!pool.colours.empty()) {
-        enable_attribute(kColourAttribute, 4, GL_UNSIGNED_BYTE, GL_TRUE, offset);
-        write<PackedColour>(GL_ARRAY_BUFFER, offset, pool.colours);
-    }
+    offset += pool.positions.span().size_bytes();
+    if (!pool.normals.empty()) enable_attribute(kNormalAttribute, 4, GL_INT_2_10_10_10_REV, GL_TRUE, offset);
+    offset += pool.normals.span().size_bytes();
+    if (!pool.colours.empty()) enable_attribute(kColourAttribute, 4, GL_UNSIGNED_BYTE, GL_TRUE, offset);
     return VertexArray(name);
+}
+
+/// In the bound vertex array: who draws binds the instances' buffer.
+void enable_instance_attributes() {
+    for (GLuint i = 0; i < kInstanceAttributes; ++i) {
+        glEnableVertexAttribArray(kFirstInstanceAttribute + i);
+        glVertexAttribFormat(kFirstInstanceAttribute + i, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float) * i);
+        glVertexAttribBinding(kFirstInstanceAttribute + i, kInstanceBinding);
+    }
+    glVertexBindingDivisor(kInstanceBinding, 1);
+}
+
+std::size_t index_bytes_of(const Scene& scene, std::span<const std::uint32_t> static_indices,
+                           std::span<const MeshLevels> levels) {
+    std::size_t bytes = scene.index_bytes();
+    if (!static_indices.empty()) {
+        for (const SceneBatch& batch : scene.batches) bytes -= std::span(batch.indices).size_bytes();
+        bytes += static_indices.size_bytes();
+    }
+    for (const MeshLevels& mesh : levels) bytes += mesh.indices.size_bytes();
+    return bytes;
 }
 
 }  // namespace
 
-Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const std::uint32_t> static_indices) {
-    take_error();
-    const StateGuard guard(has_clip_control());
-    SceneBuffers buffers;
-    buffers.origin_ = scene.origin;
+std::vector<std::uint32_t> SceneBuffers::write_indices(const Scene& scene,
+                                                       std::span<const std::uint32_t> static_indices,
+                                                       std::span<const MeshLevels> levels,
+                                                       std::size_t bytes) {
     glBindVertexArray(0);
-    std::size_t index_bytes = scene.index_bytes();
-    if (!static_indices.empty()) {
-        for (const SceneBatch& batch : scene.batches) index_bytes -= std::span(batch.indices).size_bytes();
-        index_bytes += static_indices.size_bytes();
-    }
-    buffers.indices_ = make_buffer(GL_ELEMENT_ARRAY_BUFFER, index_bytes);
+    indices_ = make_buffer(GL_ELEMENT_ARRAY_BUFFER, bytes);
     std::size_t offset = 0;
+    const auto next_index = [&] { return static_cast<std::uint32_t>(offset / sizeof(std::uint32_t)); };
     if (static_indices.empty())
         for (const SceneBatch& batch : scene.batches)
             write<std::uint32_t>(GL_ELEMENT_ARRAY_BUFFER, offset, batch.indices);
@@ -76,32 +98,67 @@ Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const st
         write(GL_ELEMENT_ARRAY_BUFFER, offset, static_indices);
     std::vector<std::uint32_t> first_of_mesh;
     for (const SceneMesh& mesh : scene.meshes) {
-        first_of_mesh.push_back(static_cast<std::uint32_t>(offset / sizeof(std::uint32_t)));
+        first_of_mesh.push_back(next_index());
         write<std::uint32_t>(GL_ELEMENT_ARRAY_BUFFER, offset, mesh.indices);
     }
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        first_level_.push_back(static_cast<std::uint32_t>(levels_.size()));
+        if (mesh >= levels.size()) continue;
+        for (const LevelRange& level : levels[mesh].levels)
+            levels_.push_back({next_index() + level.first_index, level.index_count});
+        write(GL_ELEMENT_ARRAY_BUFFER, offset, levels[mesh].indices);
+    }
+    first_level_.push_back(static_cast<std::uint32_t>(levels_.size()));
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
-    RHVIEW_ASSERT(offset == index_bytes);
+    RHVIEW_ASSERT(offset == bytes);
+    return first_of_mesh;
+}
 
-    buffers.vertices_.resize(scene.pools.size());
-    for (std::size_t i = 0; i < scene.pools.size(); ++i)
-        buffers.vertex_arrays_.push_back(
-            make_vertex_array(scene.pools[i], buffers.indices_.name(), buffers.vertices_[i]));
+void SceneBuffers::make_vertex_arrays(const Scene& scene) {
+    for (const VertexPool& pool : scene.pools) {
+        vertices_.push_back(make_vertex_buffer(pool));
+        vertex_arrays_.push_back(make_vertex_array(pool, vertices_.back(), indices_));
+        instanced_arrays_.push_back(make_vertex_array(pool, vertices_.back(), indices_));
+        enable_instance_attributes();
+    }
+}
 
+void SceneBuffers::list_objects(const Scene& scene, std::span<const std::uint32_t> first_of_mesh) {
     const auto state_of = [&](MaterialId material_id, std::uint32_t pool) {
         const Material& material = scene.materials[index_of(material_id)];
-        return DrawState{buffers.vertex_arrays_[pool].name(), material.colour,
-                         !scene.pools[pool].colours.empty(), material.two_sided};
+        return DrawState{vertex_arrays_[pool].name(), material.colour, !scene.pools[pool].colours.empty(),
+                         material.two_sided};
     };
-    for (const SceneBatch& batch : scene.batches)
-        buffers.batches_.push_back(state_of(batch.material, batch.pool));
-    buffers.objects_.reserve(scene.object_count());
+    for (const SceneBatch& batch : scene.batches) batches_.push_back(state_of(batch.material, batch.pool));
+    objects_.reserve(scene.object_count());
     for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
-        const std::size_t mesh_number = index_of(scene.object_mesh(ObjectId{i}));
-        const SceneMesh& mesh = scene.meshes[mesh_number];
-        buffers.objects_.push_back({state_of(mesh.material, mesh.pool), first_of_mesh[mesh_number],
-                                    static_cast<std::uint32_t>(mesh.indices.size()),
-                                    scene.object_placement(ObjectId{i})});
+        const std::size_t number = index_of(scene.object_mesh(ObjectId{i}));
+        const SceneMesh& mesh = scene.meshes[number];
+        objects_.push_back({state_of(mesh.material, mesh.pool), instanced_arrays_[mesh.pool].name(),
+                            static_cast<std::uint32_t>(number), first_of_mesh[number],
+                            static_cast<std::uint32_t>(mesh.indices.size()),
+                            scene.object_placement(ObjectId{i})});
     }
+}
+
+LevelRange SceneBuffers::level_range(const ObjectInstance& object, std::uint32_t level) const {
+    const std::uint32_t first = first_level_[object.mesh], end = first_level_[object.mesh + 1];
+    RHVIEW_ASSERT(level <= end - first);
+    level = std::min(level, end - first);
+    return level == 0 ? LevelRange{object.first_index, object.index_count} : levels_[first + level - 1];
+}
+
+Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const std::uint32_t> static_indices,
+                                          std::span<const MeshLevels> levels) {
+    take_error();
+    const StateGuard guard(has_clip_control());
+    SceneBuffers buffers;
+    buffers.origin_ = scene.origin;
+    const std::size_t index_bytes = index_bytes_of(scene, static_indices, levels);
+    const std::vector<std::uint32_t> first_of_mesh =
+        buffers.write_indices(scene, static_indices, levels, index_bytes);
+    buffers.make_vertex_arrays(scene);
+    buffers.list_objects(scene, first_of_mesh);
     buffers.bytes_ = index_bytes + scene.vertex_bytes();
     if (const std::string error = take_error(); !error.empty())
         return Error{fmt::format("{}: the driver could not take {} MiB of vertices and indices ({})",

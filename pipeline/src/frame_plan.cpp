@@ -3,6 +3,7 @@
 
 #include "rhview/pipeline/frame_plan.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace rhview {
@@ -21,6 +22,7 @@ void hash_word(std::uint64_t& hash, std::uint32_t word) {
 void FramePlan::clear() {
     opaque.clear();
     objects.clear();
+    object_levels.clear();
     query_boxes.clear();
     queries.clear();
     conditional.clear();
@@ -40,6 +42,7 @@ std::uint64_t plan_hash(const FramePlan& plan, std::uint64_t seed) {
         hash_word(hash, range.index_count);
     }
     for (const ObjectId object : plan.objects) hash_word(hash, static_cast<std::uint32_t>(object));
+    for (const std::uint8_t level : plan.object_levels) hash_word(hash, level);
     for (const PlannedQuery& query : plan.queries) {
         hash_word(hash, query.first_box);
         hash_word(hash, query.box_count);
@@ -53,9 +56,50 @@ std::uint64_t plan_hash(const FramePlan& plan, std::uint64_t seed) {
     }
     for (const ConditionalObject& conditional : plan.conditional_objects) {
         hash_word(hash, static_cast<std::uint32_t>(conditional.object));
-        hash_word(hash, conditional.query);
+        // Queries are fewer than 2^24.
+        hash_word(hash, conditional.query ^ std::uint32_t{conditional.level} << 24);
     }
     return hash;
+}
+
+/// Two stable counting sorts, by level and by group: what comes by id (and query) stays so within.
+template <class Object, class GroupOf, class LevelOf>
+void ObjectSorter::sort_by_group(std::vector<Object>& objects, std::vector<Object>& scratch, GroupOf group_of,
+                                 LevelOf level_of) {
+    const auto sort_by = [&](std::size_t keys, const auto& key_of) {
+        offset_.assign(keys, 0);
+        for (const Object& object : objects) ++offset_[key_of(object)];
+        std::size_t sum = 0;
+        for (std::size_t& count : offset_) sum += std::exchange(count, sum);
+        scratch.resize(objects.size());
+        for (const Object& object : objects) scratch[offset_[key_of(object)]++] = object;
+        objects.swap(scratch);
+    };
+    std::size_t levels = 0, groups = 0;
+    for (const Object& object : objects) {
+        levels = std::max<std::size_t>(levels, level_of(object));
+        groups = std::max<std::size_t>(groups, group_of(object));
+    }
+    if (levels > 0) sort_by(levels + 1, level_of);
+    if (groups > 0) sort_by(groups + 1, group_of);
+}
+
+void ObjectSorter::sort(std::span<const std::uint32_t> groups, FramePlan& plan) {
+    const auto group = [&](ObjectId object) {
+        return index_of(object) < groups.size() ? groups[index_of(object)] : 0u;
+    };
+    at_once_.clear();
+    for (std::size_t i = 0; i < plan.objects.size(); ++i)
+        at_once_.push_back({plan.objects[i], plan.level_of_object(i)});
+    sort_by_group(
+        at_once_, at_once_scratch_, [&](const AtOnce& object) { return group(object.object); },
+        [](const AtOnce& object) { return object.level; });
+    for (std::size_t i = 0; i < at_once_.size(); ++i) plan.objects[i] = at_once_[i].object;
+    for (std::size_t i = 0; i < plan.object_levels.size(); ++i) plan.object_levels[i] = at_once_[i].level;
+    sort_by_group(
+        plan.conditional_objects, conditional_scratch_,
+        [&](const ConditionalObject& object) { return group(object.object); },
+        [](const ConditionalObject& object) { return object.level; });
 }
 
 void BatchSorter::sort(std::vector<DrawRange>& ranges, std::size_t batch_count) {

@@ -180,7 +180,9 @@ NodeVisibility::Parts NodeVisibility::visit(std::uint32_t index, PlaneMask mask,
     const OctreeNode& node = nodes_[index];
     if (node.first_piece == node.piece_end) return {};
     ++nodes_visited_;
-    if (classify(*frustum_, node.bounds, mask) == Containment::Outside) return {};
+    const bool outside = classify(*frustum_, node.bounds, mask) == Containment::Outside;
+    containment_[index] = outside ? KnownContainment::kOutside : mask;
+    if (outside) return {};
     const Belief belief = scheduler_.visit(index, otherwise);
     const bool leaf = node.end == index + 1;
     const bool one = belief == Belief::Hidden || (belief == Belief::Unknown && render_ns(index) <= grain_ns_);
@@ -263,6 +265,7 @@ void NodeVisibility::decide(const FrameInput& input, const Frustum& frustum, con
     nodes_visited_ = 0;
     candidates_.clear();
     leaf_of_candidate_.clear();
+    containment_.assign(nodes_.size(), KnownContainment::kUnknown);
     make_lens(input, frustum);
     scheduler_.resize(first_object_item() + input.object_boxes.size());
     scheduler_.begin_frame(frame_ns, lens_.screen_pixels);

@@ -20,15 +20,18 @@ void RhviewPlanner::plan(const FrameInput& input, FramePlan& plan) {
     const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
     const Viewpoint viewpoint = make_viewpoint(input.culling_view, input.scene_origin);
     std::span<const NodeAlternative> alternatives;
+    KnownContainment known;
     if (visibility_) {
         visibility_->decide(input, frustum, costs_, last_predicted_ns_, plan);
         alternatives = visibility_->alternatives();
+        known = visibility_->known_containment();
     } else {
         append_visible_objects(frustum, input.object_boxes, plan.objects);
     }
-    solver_.solve(octree_, frustum, viewpoint, costs_, list_, alternatives);
+    solver_.solve(octree_, frustum, viewpoint, costs_, list_, alternatives, known);
     plan.opaque.assign(list_.ranges.begin(), list_.ranges.end());
     if (visibility_) visibility_->append_conditional(list_.alternatives, plan);
+    sorter_.sort(input.object_groups, plan);
     plan.predicted_ns = list_.predicted_ns + (plan.occlusion ? plan.occlusion->query_ns : 0.0);
     plan.nodes_visited = list_.nodes_visited + (visibility_ ? visibility_->nodes_visited() : 0);
     for (const NodeId node : list_.nodes) plan.chosen.push_back(static_cast<std::uint32_t>(node));

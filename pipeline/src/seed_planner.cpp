@@ -20,11 +20,12 @@ void SeedPlanner::absorb(std::span<const QueryAnswer> answers) {
 }
 
 void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frustum& frustum,
-                        const FrameInput& input, BatchSorter& sorter, FramePlan& plan) {
+                        const FrameInput& input, PlanSorter& sorter, FramePlan& plan) {
     plan.clear();
     append_ranges(octree, list, plan.opaque);
-    sorter.sort(plan.opaque, octree.batch_count());
+    sorter.ranges.sort(plan.opaque, octree.batch_count());
     append_visible_objects(frustum, input.object_boxes, plan.objects);
+    sorter.objects.sort(input.object_groups, plan);
     for (const NodeId node : list.nodes) plan.chosen.push_back(static_cast<std::uint32_t>(node));
     plan.nodes_visited = list.nodes_visited;
 }
@@ -40,6 +41,7 @@ void SeedPlanner::plan(const FrameInput& input, FramePlan& plan) {
     for (const DrawRange& range : plan.opaque)
         static_ns += costs_.draw_ns + costs_.index_ns * range.index_count;
     objects_->decide(input, frustum, costs_, static_ns, plan);
+    sorter_.objects.sort(input.object_groups, plan);
 }
 
 Aabb SeedPlanner::bounds_of(std::uint32_t chosen) const {

@@ -53,7 +53,8 @@ class DrawListWalk {
   public:
     DrawListWalk(DrawListSolver& solver, const RhOctree& octree, const Frustum& frustum,
                  const Viewpoint& viewpoint, const DrawCosts& costs, DrawList& list,
-                 std::span<const NodeAlternative> alternatives, std::span<double> saving_ns)
+                 std::span<const NodeAlternative> alternatives, const KnownContainment& known,
+                 std::span<double> saving_ns)
         : solver_(solver),
           nodes_(octree.nodes()),
           pieces_(octree.pieces()),
@@ -65,6 +66,7 @@ class DrawListWalk {
           costs_(costs),
           list_(list),
           alternatives_(alternatives),
+          known_(known.by_node),
           saving_ns_(saving_ns) {}
 
     void visit(std::uint32_t index, PlaneMask mask) {
@@ -73,7 +75,7 @@ class DrawListWalk {
         while (next_alternative_node() < index) ++next_alternative_;
         if (next_alternative_node() == index && alternatives_[next_alternative_].piece == kWhole)
             return offer_node(index);
-        if (classify(frustum_, node.bounds, mask) == Containment::Outside) return;
+        if (is_outside(index, mask)) return;
         if (mask == 0 && next_alternative_node() >= node.end) return show_all(index);
         const bool leaf = node.end == index + 1;
         const std::uint32_t piece_end = leaf ? node.piece_end : nodes_[index + 1].first_piece;
@@ -126,6 +128,14 @@ class DrawListWalk {
     }
 
   private:
+    /// Leaves the planes to test below it in `mask`.
+    [[nodiscard]] bool is_outside(std::uint32_t index, PlaneMask& mask) const {
+        if (known_.empty() || known_[index] == KnownContainment::kUnknown)
+            return classify(frustum_, nodes_[index].bounds, mask) == Containment::Outside;
+        mask = known_[index];
+        return mask == KnownContainment::kOutside;
+    }
+
     /// The whole subtree is inside: its pieces without its nodes.
     void show_all(std::uint32_t index) {
         const OctreeNode& node = nodes_[index];
@@ -246,12 +256,15 @@ class DrawListWalk {
     DrawList& list_;
     std::span<const NodeAlternative> alternatives_;
     std::uint32_t next_alternative_ = 0;  ///< the first that the walk has not come to
+    std::span<const PlaneMask> known_;    ///< by node; empty: nothing
     std::span<double> saving_ns_;         ///< by replica; empty: replicas are drawn where they save something
 };
 
 void DrawListSolver::walk(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
                           const DrawCosts& costs, DrawList& list,
-                          std::span<const NodeAlternative> alternatives, std::span<double> saving_ns) {
+                          std::span<const NodeAlternative> alternatives, const KnownContainment& known,
+                          std::span<double> saving_ns) {
+    RHVIEW_ASSERT(known.by_node.empty() || known.by_node.size() == octree.nodes().size());
     list.ranges.clear();
     list.alternatives.clear();
     list.nodes.clear();
@@ -264,21 +277,21 @@ void DrawListSolver::walk(const RhOctree& octree, const Frustum& frustum, const 
     open_replicas_.clear();
     routes_.assign(octree.batch_count(), RangeRoute());
     told_until_.assign(octree.batch_count(), 0);
-    DrawListWalk walk(*this, octree, frustum, viewpoint, costs, list, alternatives, saving_ns);
+    DrawListWalk walk(*this, octree, frustum, viewpoint, costs, list, alternatives, known, saving_ns);
     if (!octree.nodes().empty()) walk.visit(0, frustum.mask);
     walk.finish();
 }
 
 void DrawListSolver::solve(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
                            const DrawCosts& costs, DrawList& list,
-                           std::span<const NodeAlternative> alternatives) {
-    walk(octree, frustum, viewpoint, costs, list, alternatives, {});
+                           std::span<const NodeAlternative> alternatives, const KnownContainment& known) {
+    walk(octree, frustum, viewpoint, costs, list, alternatives, known, {});
 }
 
 void DrawListSolver::add_savings(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
                                  const DrawCosts& costs, DrawList& list, std::span<double> saving_ns) {
     RHVIEW_ASSERT(saving_ns.size() == octree.replicas().size());
-    walk(octree, frustum, viewpoint, costs, list, {}, saving_ns);
+    walk(octree, frustum, viewpoint, costs, list, {}, {}, saving_ns);
 }
 
 }  // namespace rhview

@@ -9,8 +9,7 @@
 namespace rhview {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;             // of the sections of long arrays
-constexpr std::uint32_t kDescriptionVersion = 2;  // 1 had no instances
+constexpr std::uint32_t kVersion = 1;  // of the sections of long arrays
 constexpr SectionTag kPositions = section_tag("SPOS");
 constexpr SectionTag kNormals = section_tag("SNRM");
 constexpr SectionTag kColours = section_tag("SCOL");
@@ -104,7 +103,7 @@ Status hand_out_indices(const RhoFile& file, const SceneDescription& d, Scene& s
 void add_scene_sections(RhoWriter& writer, const SceneAndPath& loaded, const SceneProvenance& provenance) {
     const Scene& scene = loaded.scene;
     using Pieces = std::vector<std::span<const std::byte>>;
-    writer.add_owned(kSceneDescription, kDescriptionVersion, to_bytes(describe(loaded, provenance)));
+    writer.add_owned(kSceneDescription, kMotionsVersion, to_bytes(describe(loaded, provenance)));
     Pieces positions, normals, colours, indices, objects;
     append_pieces(positions, scene.pools, &VertexPool::positions);
     append_pieces(normals, scene.pools, &VertexPool::normals);
@@ -121,9 +120,9 @@ void add_scene_sections(RhoWriter& writer, const SceneAndPath& loaded, const Sce
 
 Result<BakedScene> read_scene_sections(const RhoFile& file) {
     const Result<MappableArray<std::byte>> bytes =
-        file.section(kSceneDescription, kDescriptionVersion, kDescriptionVersion);
+        file.section(kSceneDescription, kMotionsVersion, kOldestDescription);
     if (!bytes) return bytes.error();
-    std::optional<SceneDescription> d = parse_description(bytes->span());
+    std::optional<SceneDescription> d = parse_description(bytes->span(), file.version_of(kSceneDescription));
     if (!d) return file.error(kSceneDescription, "a count in it contradicts its length");
     BakedScene baked;
     Scene& scene = baked.scene.scene;
@@ -133,6 +132,7 @@ Result<BakedScene> read_scene_sections(const RhoFile& file) {
     scene.origin = d->origin;
     scene.materials = std::move(d->materials);
     scene.dynamic_objects = std::move(d->dynamic_objects);
+    scene.motions = std::move(d->motions);
     scene.static_instances = std::move(d->static_instances);
     scene.instancing = d->instancing;
     scene.dropped_triangles = d->dropped_triangles;

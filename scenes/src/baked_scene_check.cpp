@@ -8,6 +8,7 @@
 
 #include "placement.h"
 #include "rhview/base/index_check.h"
+#include "rhview/scenes/object_motion.h"
 
 namespace rhview {
 namespace {
@@ -81,7 +82,12 @@ Status check_lists(const RhoFile& file, const Scene& scene) {
             return error("object", i, "its mesh is not in the list");
         if (!is_affine(scene.dynamic_objects[i].scene_from_mesh))
             return error("object", i, "its placement is not affine");
+        if (const std::uint32_t motion = scene.dynamic_objects[i].motion;
+            motion != DynamicObject::kStill && motion >= scene.motions.size())
+            return error("object", i, "its way is not in the list");
     }
+    for (std::size_t i = 0; i < scene.motions.size(); ++i)
+        if (const char* problem = problem_of(scene.motions[i])) return error("way", i, problem);
     for (std::size_t i = 0; i < scene.static_instances.size(); ++i)
         if (const char* problem = problem_of(scene, scene.static_instances[i]))
             return error("instance", i, problem);

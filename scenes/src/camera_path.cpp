@@ -141,11 +141,15 @@ View CameraPath::view_at(double time_s, double aspect, ClipDepth clip_depth) con
                       turned(direction_of(a), direction_of(b), unit(up), t), aspect, clip_depth);
 }
 
-View CameraPath::view_of_frame(int frame, int frames, double aspect, ClipDepth clip_depth) const {
+double CameraPath::time_of_frame(int frame, int frames) const {
     RHVIEW_ASSERT(frame >= 0 && frame < frames);
     const double fraction = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 0.0;
     const double first = keys.front().time_s;
-    return view_at(first + fraction * (keys.back().time_s - first), aspect, clip_depth);
+    return first + fraction * (keys.back().time_s - first);
+}
+
+View CameraPath::view_of_frame(int frame, int frames, double aspect, ClipDepth clip_depth) const {
+    return view_at(time_of_frame(frame, frames), aspect, clip_depth);
 }
 
 Status validate(const CameraPath& path) {

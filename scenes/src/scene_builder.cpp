@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "placement.h"
+#include "rhview/base/assert.h"
+#include "rhview/scenes/object_motion.h"
 
 namespace rhview {
 namespace {
@@ -135,6 +137,13 @@ void SceneBuilder::add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh) {
     glm::dmat4 scene_from_mesh = world_from_mesh;
     scene_from_mesh[3] -= glm::dvec4(scene_.origin, 0.0);
     scene_.dynamic_objects.push_back({mesh, scene_from_mesh});
+}
+
+void SceneBuilder::add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh, ObjectMotion motion) {
+    RHVIEW_ASSERT(problem_of(motion) == nullptr);
+    add_dynamic(mesh, world_from_mesh);
+    scene_.dynamic_objects.back().motion = static_cast<std::uint32_t>(scene_.motions.size());
+    scene_.motions.push_back(std::move(motion));
 }
 
 bool SceneBuilder::add_instance(MeshId mesh, const glm::dmat4& world_from_mesh) {

@@ -111,6 +111,19 @@ void stream_scene(Io& io, Description& d) {
     stream_report(io, d.instancing);
 }
 
+/// Where dynamic objects go: version 3 and later.
+template <class Io, class Description>
+void stream_motions(Io& io, Description& d) {
+    io.list(d.motions, 8, [&](auto& motion) {
+        io.list(motion.keys, 40, [&](auto& key) {
+            io.value(key.time_s);
+            stream_vector(io, key.offset);
+            io.value(key.turns);
+        });
+    });
+    for (auto& object : d.dynamic_objects) io.value(object.motion);
+}
+
 template <class Io, class Path>
 void stream_path(Io& io, Path& path) {
     io.value(path.fov_y_deg);
@@ -144,6 +157,7 @@ SceneDescription describe(const SceneAndPath& loaded, const SceneProvenance& pro
     for (const SceneMesh& mesh : scene.meshes)
         d.meshes.push_back({mesh.material, mesh.pool, mesh.indices.size(), mesh.bounds});
     d.dynamic_objects = scene.dynamic_objects;
+    d.motions = scene.motions;
     d.static_instances = scene.static_instances;
     d.instancing = scene.instancing;
     d.path = loaded.path;
@@ -154,14 +168,16 @@ std::vector<std::byte> to_bytes(const SceneDescription& description) {
     Writing io;
     stream_scene(io, description);
     stream_path(io, description.path);
+    stream_motions(io, description);
     return io.bytes.take();
 }
 
-std::optional<SceneDescription> parse_description(std::span<const std::byte> bytes) {
+std::optional<SceneDescription> parse_description(std::span<const std::byte> bytes, std::uint32_t version) {
     Reading io{ByteReader(bytes)};
     SceneDescription description;
     stream_scene(io, description);
     stream_path(io, description.path);
+    if (version >= kMotionsVersion) stream_motions(io, description);
     if (!io.bytes.ok() || !io.bytes.at_end()) return std::nullopt;
     return description;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,10 +48,15 @@ struct SceneDescription {
     std::vector<BatchRecord> batches;
     std::vector<MeshRecord> meshes;
     std::vector<DynamicObject> dynamic_objects;
+    std::vector<ObjectMotion> motions;
     std::vector<StaticInstance> static_instances;
     InstancingReport instancing;
     CameraPath path;
 };
+
+/// Versions of the section: 1 had no instances and is read no more, 2 had no motions.
+inline constexpr std::uint32_t kMotionsVersion = 3;
+inline constexpr std::uint32_t kOldestDescription = 2;
 
 SceneDescription describe(const SceneAndPath& scene, const SceneProvenance& provenance);
 
@@ -58,6 +64,6 @@ std::vector<std::byte> to_bytes(const SceneDescription& description);
 
 /// Nothing when the bytes end too early or too late, or a count leaves them: no value is looked at beyond
 /// that.
-std::optional<SceneDescription> parse_description(std::span<const std::byte> bytes);
+std::optional<SceneDescription> parse_description(std::span<const std::byte> bytes, std::uint32_t version);
 
 }  // namespace rhview

@@ -36,8 +36,8 @@ TEST_F(BadInput, unknown_verbs_options_methods_and_modes) {
     refuse("walk town --colour red", {"--colour", "rhview walk --help"}, 0);
     refuse("walk", {"SCENE"}, 0);
     refuse("--verison", {"--verison", "scenes, info, calibrate, bake, walk"}, 0);
-    refuse("walk town --method fastest", {"--method fastest", "none, frustum, octree, rhview-seed, rhview"},
-           0);
+    refuse("walk town --method fastest",
+           {"--method fastest", "none, frustum, octree, nested-grid, chc, chc++, rhview-seed, rhview"}, 0);
     refuse("walk town --mode guess", {"--mode guess"}, 0);
     refuse("walk town --mode latent --method octree", {"--mode latent", "rhview"}, 0);
     refuse("walk town --occlusion never", {"--occlusion never", "auto, hardware, boxes, off"}, 0);
@@ -46,6 +46,16 @@ TEST_F(BadInput, unknown_verbs_options_methods_and_modes) {
     refuse("walk soup --set c1=1,c3=2 --mode latent", {"--mode latent", "query=…"}, 0);
     refuse("walk soup --set c1=1,c3=2,query=3 --occlusion boxes", {"--occlusion boxes", "box"}, 0);
     refuse("walk town --visible-set --method none", {"--visible-set", "none"}, 0);
+    refuse("walk soup --visible-set --method chc++", {"--visible-set", "chc++"}, 0);
+    refuse("walk soup --occlusion hardware --method chc", {"--occlusion hardware", "chc"}, 0);
+    refuse("walk soup --hierarchy grid --method chc", {"--hierarchy grid", "bvh or octree"}, 0);
+    refuse("walk soup --hierarchy bvh --method rhview", {"--hierarchy", "rhview"}, 0);
+    refuse("walk soup --tune batch=5 --method chc", {"--tune", "chc"}, 0);
+    refuse("walk soup --tune batch --method chc++", {"--tune batch", "KEY=VALUE"}, 0);
+    refuse("walk soup --tune batch=0 --method chc++", {"--tune batch=0", "1"}, 0);
+    refuse("walk soup --tune batch=5x --method chc++", {"--tune batch=5x"}, 0);
+    refuse("walk soup --tune colour=5 --method chc++", {"--tune colour", "tight-area"}, 0);
+    refuse("walk soup --tune visible-query=eye --method chc++", {"visible-query=eye", "geometry or box"}, 0);
     refuse("walk town --submission bulk", {"--submission bulk"}, 0);
 }
 

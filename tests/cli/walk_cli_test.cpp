@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 
+#include <cctype>
+
 #include "program.h"
 
 namespace rhview::cli {
@@ -24,14 +26,64 @@ TEST_P(EveryMethod, misses_no_pixel_on_small_scenes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
-                         testing::Values("none", "frustum", "octree", "rhview-seed", "rhview"),
+                         testing::Values("none", "frustum", "octree", "rhview-seed", "rhview", "nested-grid",
+                                         "nested-grid --leaf 100 --tune levels=3,top-cells=8", "chc",
+                                         "chc --hierarchy octree --leaf 100", "chc++",
+                                         "chc++ --hierarchy octree --leaf 100 --tune "
+                                         "batch=5,visible-frames=2,visible-query=box,tight-depth=1"),
                          [](const auto& test) {
                              std::string name = test.param;
-                             std::ranges::replace(name, '-', '_');
+                             std::ranges::replace_if(
+                                 name,
+                                 [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
+                                 '_');
                              return name;
                          });
 
 class Walk : public ProgramTest {};
+
+class DrawsAndAsks : public ProgramTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(DrawsAndAsks, in_turns_and_reports_queries_and_waits) {
+    const nlohmann::json walk =
+        walk_json(std::string("city:blocks=4 --frames 12 --warmup 2 --size 200x120 --method ") + GetParam());
+    const nlohmann::json& summary = walk["summary"];
+    EXPECT_GT(summary["queries"]["mean"], 1.0);
+    EXPECT_GT(summary["query_boxes"]["mean"], 1.0);
+    EXPECT_GT(summary["hidden_fraction"]["mean"], 0.0);
+    // A frame whose answers nobody waits for draws nothing of what was hidden.
+    EXPECT_GE(summary["waits"]["mean"], 1.0);
+    EXPECT_GE(summary["blocking_reads"], 12);
+    EXPECT_EQ(summary["lost_queries"], 0);
+    EXPECT_GT(summary["cull_ms"]["mean"], 0.0);
+    EXPECT_GT(walk["build"]["leaves"], 10);
+    EXPECT_TRUE(walk["build"]["hierarchy"].is_string());
+    // No model knows what waiting costs, and nothing hangs on a query.
+    for (const char* field : {"predicted_ms", "prediction_error", "running_prediction_error",
+                              "query_predicted_ms", "conditional_draws", "skipped_indices"})
+        EXPECT_TRUE(summary[field].is_null()) << field;
+    for (const nlohmann::json& frame : walk["per_frame"]) {
+        EXPECT_TRUE(frame["predicted_ms"].is_null());
+        EXPECT_TRUE(frame["fragments"].is_null());
+        EXPECT_LE(frame["occlusion"]["waits"], frame["queries"]);
+        EXPECT_GE(frame["frame_ms"], frame["cull_ms"]);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, DrawsAndAsks, testing::Values("nested-grid", "chc", "chc++"),
+                         [](const auto& test) {
+                             return test.index == 0   ? "nested_grid"
+                                    : test.index == 1 ? "chc"
+                                                      : "chc_plus_plus";
+                         });
+
+TEST_F(Walk, chc_plus_plus_culls_the_hierarchy_that_is_asked_for) {
+    const std::string city = "city:blocks=4 --frames 2 --warmup 0 --size 160x90 --method chc++ --hierarchy ";
+    const nlohmann::json bvh = walk_json(city + "bvh"), octree = walk_json(city + "octree");
+    EXPECT_EQ(bvh["build"]["hierarchy"], "bvh");
+    EXPECT_EQ(octree["build"]["hierarchy"], "octree");
+    EXPECT_NE(bvh["build"]["leaves"], octree["build"]["leaves"]);
+}
 
 /// Prices at which asking pays on a small scene.
 const std::string kPrices = " --set c1=5,c3=200,query=4000,box=800";
@@ -69,6 +121,15 @@ TEST_F(Walk, latent_mode_tells_what_it_misses_and_is_no_failed_check) {
         walk_json("city:blocks=6 --frames 12 --warmup 4 --size 200x120 --check --mode latent" + kPrices);
     EXPECT_EQ(walk["mode"], "latent");
     EXPECT_TRUE(walk["summary"]["missing_pixels"]["total"].is_number());
+    // Whoever lacked a pixel in some frame is told by the frames for which it did.
+    double late_frames = 0.0;
+    for (const nlohmann::json& frame : walk["per_frame"]) {
+        EXPECT_EQ(frame["late_items"] > 0, frame["missing_pixels"] > 0);
+        late_frames += frame["late_items"].get<double>();
+    }
+    EXPECT_GT(late_frames, 0.0);
+    const nlohmann::json& reveals = walk["summary"]["reveal_frames"];
+    EXPECT_NEAR(reveals["mean"].get<double>() * reveals["items"].get<double>(), late_frames, 1e-6);
 }
 
 TEST_F(Walk, without_a_price_of_a_query_nothing_is_asked) {

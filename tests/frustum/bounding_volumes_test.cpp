@@ -159,9 +159,9 @@ TEST(CornerFrustum, rejects_a_large_box_beyond_all_corners_that_no_plane_rejects
     const Aabb at_the_corner{glm::vec3(95, -400, -400), glm::vec3(900, 400, 400)};
     mask = frustum.mask;
     EXPECT_EQ(classify(frustum, at_the_corner, mask), Containment::Intersecting);
-    EXPECT_NEAR(frustum.corner_box.max.x, 100.0f, 0.01f);
-    EXPECT_NEAR(frustum.corner_box.min.z, -100.0f, 0.01f);
-    EXPECT_NEAR(frustum.corner_box.max.z, -1.0f, 0.01f);
+    EXPECT_NEAR(frustum.extents[0].corner_box.max.x, 100.0f, 0.01f);
+    EXPECT_NEAR(frustum.extents[0].corner_box.min.z, -100.0f, 0.01f);
+    EXPECT_NEAR(frustum.extents[0].corner_box.max.z, -1.0f, 0.01f);
 }
 
 TEST(CornerFrustum, without_a_far_plane_answers_as_the_plain_frustum) {

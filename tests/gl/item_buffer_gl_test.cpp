@@ -38,6 +38,17 @@ TEST_F(ItemBufferTest, sees_what_is_nearest_in_some_pixel) {
     }
 }
 
+TEST_F(ItemBufferTest, tells_what_each_pixel_shows) {
+    const SceneBuffers buffers = three_in_a_row();
+    ItemBuffer items = ItemBuffer::create(160, 120).value();
+    const std::vector<ItemRange> ranges{{{BatchId{0}, 3, 3}, 0}, {{BatchId{0}, 0, 3}, 7}};
+    const auto pixels =
+        items.item_pixels(ranges, ItemBuffer::kNoItem, buffers, view_at({0, 0, 0}, {0, 0, -1}));
+    ASSERT_EQ(pixels.size(), 160u * 120u);
+    EXPECT_EQ(pixels[60 * 160 + 80], 7u);  // the nearer of the two
+    EXPECT_EQ(pixels[0], ItemBuffer::kNoItem);
+}
+
 TEST_F(ItemBufferTest, leaves_the_target_that_was_bound) {
     const SceneBuffers buffers = three_in_a_row();
     ItemBuffer items = ItemBuffer::create(40, 30).value();

@@ -379,6 +379,37 @@ TEST_P(CheapestDrawList, is_the_same_from_any_solver_and_after_any_frame) {
     }
 }
 
+/// What an own traversal finds out, but for some of the nodes.
+void find_some_containment(const RhOctree& octree, const Frustum& frustum, std::uint32_t index,
+                           PlaneMask mask, Uniform& uniform, std::vector<PlaneMask>& known) {
+    const OctreeNode& node = octree.nodes()[index];
+    const bool outside = classify(frustum, node.bounds, mask) == Containment::Outside;
+    if (uniform(0.0, 1.0) < 0.6) known[index] = outside ? KnownContainment::kOutside : mask;
+    if (outside) return;
+    for (std::uint32_t child = index + 1; child < node.end; child = octree.nodes()[child].end)
+        find_some_containment(octree, frustum, child, mask, uniform, known);
+}
+
+TEST_P(CheapestDrawList, is_the_same_if_some_of_the_tests_are_known) {
+    const auto [leaf, record, budget, costs] = GetParam();
+    const Balls balls(99, 3, 60, 150);
+    const RhOctree octree = build_octree(balls.batches(), options_of(leaf, record, budget, costs)).value();
+    Uniform uniform(100);
+    DrawListSolver solver;
+    DrawList without, with;
+    for (int i = 0; i < 30; ++i) {
+        const View view = random_view(uniform);
+        const Frustum frustum = make_frustum(view);
+        std::vector<PlaneMask> known(octree.nodes().size(), KnownContainment::kUnknown);
+        find_some_containment(octree, frustum, 0, frustum.mask, uniform, known);
+        solver.solve(octree, frustum, make_viewpoint(view), costs, without);
+        solver.solve(octree, frustum, make_viewpoint(view), costs, with, {}, {known});
+        EXPECT_EQ(with.ranges, without.ranges);
+        EXPECT_EQ(with.nodes, without.nodes);
+        EXPECT_EQ(with.predicted_ns, without.predicted_ns);
+    }
+}
+
 const std::array<Case, 7> kWholeLeaves{Case{1, 0, 0.0, {1, 1, 0}},     Case{20, 0, 0.0, {1, 60, 0}},
                                        Case{20, 0, 1.0, {1, 60, 0}},   Case{20, 0, 1.0, {1, 60, 500}},
                                        Case{20, 0, 1.0, {1, 0, 0}},    Case{20, 0, 1.0, {0, 1, 0}},

@@ -53,7 +53,8 @@ SceneAndPath small_scene() {
     builder.add_static(wall, {positions, normals, {}, indices}, there);
     const std::optional<MeshId> mesh = builder.add_mesh(leaves, {positions, {}, colours, indices});
     builder.add_dynamic(*mesh, there);
-    builder.add_dynamic(*mesh, there * 2.0 - glm::dmat4(there));
+    builder.add_dynamic(*mesh, there * 2.0 - glm::dmat4(there),
+                        {{{}, {1.5, {1, 2, 3}, 0.25}, {4.0, {0, 0, 0}, -1.0}}});
     const std::optional<MeshId> stone = builder.add_mesh(wall, {positions, normals, {}, indices});
     for (const double x : {1.0, -2.0}) {
         glm::dmat4 place = there;
@@ -102,6 +103,17 @@ void expect_equal(const SceneAndPath& a, const SceneAndPath& b) {
     ASSERT_EQ(a.scene.dynamic_objects.size(), b.scene.dynamic_objects.size());
     for (std::size_t i = 0; i < a.scene.dynamic_objects.size(); ++i)
         EXPECT_EQ(a.scene.dynamic_objects[i].scene_from_mesh, b.scene.dynamic_objects[i].scene_from_mesh);
+    for (std::size_t i = 0; i < a.scene.dynamic_objects.size(); ++i)
+        EXPECT_EQ(a.scene.dynamic_objects[i].motion, b.scene.dynamic_objects[i].motion);
+    ASSERT_EQ(a.scene.motions.size(), b.scene.motions.size());
+    for (std::size_t i = 0; i < a.scene.motions.size(); ++i) {
+        ASSERT_EQ(a.scene.motions[i].keys.size(), b.scene.motions[i].keys.size());
+        for (std::size_t k = 0; k < a.scene.motions[i].keys.size(); ++k) {
+            EXPECT_EQ(a.scene.motions[i].keys[k].time_s, b.scene.motions[i].keys[k].time_s);
+            EXPECT_EQ(a.scene.motions[i].keys[k].offset, b.scene.motions[i].keys[k].offset);
+            EXPECT_EQ(a.scene.motions[i].keys[k].turns, b.scene.motions[i].keys[k].turns);
+        }
+    }
     ASSERT_EQ(a.scene.static_instances.size(), b.scene.static_instances.size());
     for (std::size_t i = 0; i < a.scene.static_instances.size(); ++i) {
         EXPECT_EQ(a.scene.static_instances[i].mesh, b.scene.static_instances[i].mesh);
@@ -133,7 +145,8 @@ TEST(BakedScene, comes_back_as_it_was) {
 }
 
 TEST(BakedScene, named_scenes_come_back_and_outlive_the_file) {
-    for (const char* spec : {"town:size=64,materials=3", "farm:instances=5,mesh=1000", "plant:objects=200"}) {
+    for (const char* spec : {"town:size=64,materials=3", "farm:instances=5,mesh=1000", "crowd:objects=20",
+                             "plant:objects=200"}) {
         const SceneAndPath scene = make_named_scene(spec).value();
         SceneAndPath copy;
         {
@@ -180,6 +193,9 @@ TEST(BakedScene, what_contradicts_itself_is_told_by_name) {
         {[](auto& s) { s.scene.meshes[0].bounds.max.x = INFINITY; }, "mesh 0: its box is none"},
         {[=](auto& s) { s.scene.dynamic_objects[1].scene_from_mesh[3][0] = nan; }, "object 1: its placement"},
         {[](auto& s) { s.scene.dynamic_objects[1].scene_from_mesh[0][3] = 1; }, "object 1: its placement"},
+        {[](auto& s) { s.scene.dynamic_objects[0].motion = 1; }, "object 0: its way"},
+        {[](auto& s) { s.scene.motions[0].keys[1].time_s = 9; }, "way 0: its times"},
+        {[=](auto& s) { s.scene.motions[0].keys[1].turns = nan; }, "way 0: a key"},
         {[](auto& s) { s.scene.static_instances[0].scene_from_mesh[0] = {}; },
          "instance 0: its placement can't be drawn through"},
         {[=](auto& s) { s.scene.static_instances[0].scene_from_mesh[3][1] = nan; },
@@ -233,6 +249,26 @@ TEST(BakedScene, description_without_instances_of_an_older_program_is_told) {
         read(file).error().message,
         "x.rho: section SCNE is of version 1, and this program reads none before 2; bake the scene again "
         "with this program");
+}
+
+TEST(BakedScene, description_without_motions_of_an_older_program_is_read) {
+    SceneAndPath scene = small_scene();
+    scene.scene.motions.clear();
+    for (DynamicObject& object : scene.scene.dynamic_objects) object.motion = DynamicObject::kStill;
+    RhoBytes file = baked(scene);
+    // Version 2 ended before the number of motions and each object's.
+    const std::size_t begin = file.offset_of("SCNE");
+    const auto size = static_cast<std::size_t>(
+        file.get<std::uint64_t>(RhoBytes::entry(file.find("SCNE")) + RhoBytes::kEntrySize));
+    const std::vector<std::byte> content(
+        file.bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+        file.bytes.begin() + static_cast<std::ptrdiff_t>(begin + size - 8 - 2 * 4));
+    file.replace("SCNE", content);
+    file.set<std::uint32_t>(RhoBytes::entry(file.find("SCNE")) + RhoBytes::kEntryVersion, 2);
+    file.repair();
+    const Result<BakedScene> back = read(file);
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    expect_equal(back->scene, scene);
 }
 
 TEST(BakedScene, scene_of_instances_alone_comes_back) {

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "rhview/scenes/memory.h"
+#include "rhview/scenes/object_motion.h"
 
 namespace rhview {
 namespace {
@@ -81,6 +82,13 @@ std::uint64_t hash_of(const Scene& scene) {
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row) fnv.add(object.scene_from_mesh[column][row]);
     }
+    for (const ObjectMotion& motion : scene.motions) {
+        for (const MotionKey& key : motion.keys) {
+            fnv.add(key.time_s);
+            for (int axis = 0; axis < 3; ++axis) fnv.add(key.offset[axis]);
+            fnv.add(key.turns);
+        }
+    }
     return fnv.value();
 }
 
@@ -126,15 +134,17 @@ struct Golden {
 
 // The hashes are the same for GCC and Clang, with and without optimisation. One that changes means another
 // scene: figures published for the old one no longer compare.
-constexpr std::array<Golden, 9> kGolden{{
+constexpr std::array<Golden, 11> kGolden{{
     {"town:size=200", 0x9a99a698d260fd92},
     {"town:size=150,seed=8,materials=5", 0x6398718730a20c11},
     {"plant:objects=3000", 0x551fe9cd690b4bcb},
     {"plant:objects=500,sides=5,seed=2", 0x6fdddd33ff922c85},
     {"indoor:rooms=3,floors=2", 0xde4430f8f5bcaa33},
     {"indoor:rooms=2,floors=1,seed=5", 0x9a78c8f0f24a6d41},
-    {"farm:mesh=5000,instances=25", 0x75e4eb671f4f661d},
+    {"farm:mesh=5000,instances=25", 0xcf1e89d06a13ba68},
     {"city:blocks=3,seed=4", 0x31abfa708f65caab},
+    {"crowd:objects=50,street=5,seed=2", 0x6befef3aca62eb8d},
+    {"swarm:objects=30,mesh=300", 0x6a3aa76ad88a319b},
     {"soup:triangles=3000", 0xe84ad41693a53f87},
 }};
 
@@ -156,7 +166,7 @@ TEST(NamedScene, default_town_has_the_size_and_content_that_are_published) {
 }
 
 TEST(NamedScene, default_sizes_of_the_lighter_scenes_are_true) {
-    for (const char* name : {"farm", "soup"})
+    for (const char* name : {"farm", "crowd", "swarm", "soup"})
         EXPECT_EQ(size_of(built(name).scene), info_of(name).default_size) << name;
 }
 
@@ -169,10 +179,11 @@ TEST(NamedScene, default_sizes_of_the_heavier_scenes_are_true) {
 }
 
 TEST(NamedScene, every_path_is_valid_and_reaches_the_whole_scene) {
-    for (const char* spec : {"town:size=16", "town:size=100", "town:size=180,seed=1", "plant:objects=100",
-                             "plant:objects=4500", "indoor:rooms=2,floors=1", "indoor:rooms=3,floors=4",
-                             "indoor:rooms=5,floors=3", "farm:mesh=1000,seed=3", "city:blocks=1",
-                             "city:blocks=2", "city:blocks=5", "soup:triangles=1000"}) {
+    for (const char* spec :
+         {"town:size=16", "town:size=100", "town:size=180,seed=1", "plant:objects=100", "plant:objects=4500",
+          "indoor:rooms=2,floors=1", "indoor:rooms=3,floors=4", "indoor:rooms=5,floors=3",
+          "farm:mesh=1000,seed=3", "city:blocks=1", "city:blocks=2", "city:blocks=5", "crowd:objects=10",
+          "swarm:objects=1,mesh=60", "swarm:objects=300", "soup:triangles=1000"}) {
         const SceneAndPath made = built(spec);
         const Status status = validate(made.path);
         EXPECT_TRUE(status.ok()) << spec << ": " << status.error().message;
@@ -182,16 +193,17 @@ TEST(NamedScene, every_path_is_valid_and_reaches_the_whole_scene) {
 }
 
 TEST(NamedScene, another_seed_is_another_scene) {
-    for (const char* name : {"town:size=64", "plant:objects=300", "indoor:rooms=2", "farm:mesh=1000",
-                             "city:blocks=2", "soup:triangles=1000"}) {
+    for (const char* name :
+         {"town:size=64", "plant:objects=300", "indoor:rooms=2", "farm:mesh=1000", "city:blocks=2",
+          "crowd:objects=20", "swarm:objects=20", "soup:triangles=1000"}) {
         const std::string spec = std::string(name) + ",seed=";
         EXPECT_NE(hash_of(built(spec + "11").scene), hash_of(built(spec + "12").scene)) << name;
     }
 }
 
 TEST(NamedScene, stored_normals_point_out_of_the_front_faces) {
-    for (const char* spec :
-         {"plant:objects=3000", "indoor:rooms=3,floors=2", "farm:mesh=5000", "city:blocks=2"}) {
+    for (const char* spec : {"plant:objects=3000", "indoor:rooms=3,floors=2", "farm:mesh=5000",
+                             "city:blocks=2", "crowd:objects=20", "swarm:objects=20"}) {
         const Scene scene = built(spec).scene;
         std::uint64_t wrong = 0;
         const auto check = [&](const VertexPool& pool, std::span<const std::uint32_t> indices) {
@@ -281,6 +293,41 @@ TEST(NamedScene, farm_stores_its_mesh_once_as_a_closed_surface) {
     }
 }
 
+TEST(NamedScene, the_crowd_stays_behind_its_walls_and_the_street_is_walked) {
+    const SceneAndPath made = built("crowd:objects=300,street=30,mesh=60");
+    const Scene& scene = made.scene;
+    ASSERT_EQ(scene.dynamic_objects.size(), 330u);
+    ObjectPlacements placements;
+    for (double time = 0.0; time < 60.0; time += 1.3) {
+        place_objects(scene, time, placements);
+        for (std::size_t i = 0; i < 330; ++i) {
+            const Aabb& box = placements.boxes[i];
+            if (i < 30)
+                EXPECT_TRUE(box.min.z > -6.0f && box.max.z < 6.0f) << i;
+            else
+                EXPECT_TRUE(box.min.z > 6.5f || box.max.z < -6.5f) << i;
+        }
+    }
+    for (const CameraKey& key : made.path.keys) EXPECT_LT(std::abs(key.eye.z), 5.0);
+}
+
+TEST(NamedScene, all_of_the_swarm_is_in_view_all_the_time) {
+    const SceneAndPath made = built("swarm:objects=200,mesh=60");
+    ObjectPlacements placements;
+    for (int frame = 0; frame < 40; ++frame) {
+        place_objects(made.scene, made.path.time_of_frame(frame, 40), placements);
+        const View view = made.path.view_of_frame(frame, 40, 16.0 / 9.0, ClipDepth::ZeroToOne);
+        const glm::dmat4 clip = view.clip_from_eye_relative();
+        for (const Aabb& box : placements.boxes)
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::dvec3 place(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                       corner & 4 ? box.max.z : box.min.z);
+                const glm::dvec4 p = clip * glm::dvec4(place - view.eye(), 1.0);
+                ASSERT_TRUE(std::abs(p.x) < p.w && std::abs(p.y) < p.w && p.z > 0.0) << frame;
+            }
+    }
+}
+
 TEST(NamedScene, soup_holds_what_it_promises_and_drops_what_is_not_finite) {
     const Scene scene = built("soup:triangles=4000").scene;
     EXPECT_EQ(scene.static_triangles(), 4000u);
@@ -319,7 +366,7 @@ TEST(NamedScene, a_spec_is_a_named_scene_by_its_part_before_the_colon) {
     EXPECT_FALSE(is_named_scene("town.glb"));
     EXPECT_FALSE(is_named_scene("c:town"));
     EXPECT_FALSE(is_named_scene(""));
-    ASSERT_EQ(named_scenes().size(), 6u);
+    ASSERT_EQ(named_scenes().size(), 8u);
     EXPECT_EQ(named_scenes()[0].name, "town");
     for (const NamedSceneInfo& info : named_scenes())
         for (const SceneParameter& parameter : info.parameters) {
@@ -330,9 +377,11 @@ TEST(NamedScene, a_spec_is_a_named_scene_by_its_part_before_the_colon) {
 
 TEST(NamedScene, bad_specs_are_refused_with_the_mend) {
     EXPECT_EQ(refusal(""),
-              "there is no named scene ''; the named scenes are town, plant, indoor, farm, city and soup");
+              "there is no named scene ''; the named scenes are town, plant, indoor, farm, city, crowd, "
+              "swarm and soup");
     EXPECT_EQ(refusal("tow:size=20"),
-              "there is no named scene 'tow'; the named scenes are town, plant, indoor, farm, city and soup");
+              "there is no named scene 'tow'; the named scenes are town, plant, indoor, farm, city, crowd, "
+              "swarm and soup");
     EXPECT_EQ(refusal("town:length=20"),
               "town: there is no parameter 'length'; town has size, seed and materials");
     EXPECT_EQ(refusal("town:"), "town: a parameter is empty; write town:size=700");

@@ -145,19 +145,25 @@ def check_registered_headers(root, list_file):
                 yield f"{path.relative_to(root)}: not among the HEADERS of rhview_module({module})"
 
 
+# Where the C++ of README.md is from, block after block.
+SNIPPET_SAMPLES = ["samples/minimal/main.cpp", "samples/engine_loop/main.cpp"]
+
+
 def check_readme_snippet(root):
-    """The C++ in README.md is the part of samples/minimal/main.cpp between its [snippet] marks."""
+    """The C++ blocks in README.md are the parts of the samples between their [snippet] marks."""
     def normalised(text):
         return "\n".join(line.rstrip() for line in textwrap.dedent(text).strip("\n").splitlines())
     blocks = re.findall(r"^```cpp\n(.*?)^```", read(root / "README.md"), re.DOTALL | re.MULTILINE)
-    regions = re.findall(r"^[ \t]*// \[snippet\]\n(.*?)^[ \t]*// \[/snippet\]",
-                         read(root / "samples/minimal/main.cpp"), re.DOTALL | re.MULTILINE)
-    if len(regions) != 1:
-        yield f"samples/minimal/main.cpp: expected one [snippet] … [/snippet] region, found {len(regions)}"
-    elif not blocks:
-        yield "README.md: no ```cpp block"
-    elif normalised(blocks[0]) != normalised(regions[0]):
-        yield "README.md: its first ```cpp block differs from the [snippet] region of samples/minimal/main.cpp"
+    if len(blocks) != len(SNIPPET_SAMPLES):
+        yield f"README.md: {len(blocks)} ```cpp blocks; expected one for each of {', '.join(SNIPPET_SAMPLES)}"
+        return
+    for block, sample in zip(blocks, SNIPPET_SAMPLES):
+        regions = re.findall(r"^[ \t]*// \[snippet\]\n(.*?)^[ \t]*// \[/snippet\]", read(root / sample),
+                             re.DOTALL | re.MULTILINE)
+        if len(regions) != 1:
+            yield f"{sample}: expected one [snippet] … [/snippet] region, found {len(regions)}"
+        elif normalised(block) != normalised(regions[0]):
+            yield f"README.md: a ```cpp block differs from the [snippet] region of {sample}"
 
 
 def check_format(root, clang_format):

@@ -18,7 +18,7 @@ SPDX_HASH = SPDX.replace("//", "#")
 
 SOUND_TREE = {
     "CMakeLists.txt": "project(rhview)\n",
-    "README.md": "# rhview\n\n```cpp\nint x = 1;\nif (x) {\n    return;\n}\n```\n",
+    "README.md": "# rhview\n\n```cpp\nint x = 1;\nif (x) {\n    return;\n}\n```\n```cpp\nint y = 1;\n```\n",
     "cmake/RhviewModule.cmake": SPDX_HASH + "set(RHVIEW_FLOOR_base 0)\nset(RHVIEW_FLOOR_frustum 1)\n"
                                             "set(RHVIEW_FLOOR_gl 4)\n",
     "base/CMakeLists.txt": "rhview_module(base)  # OpenGL is not for us\n",
@@ -36,6 +36,7 @@ SOUND_TREE = {
     "gl/src/draw.cpp": SPDX + "#include <epoxy/gl.h>\nvoid draw() { glClear(GL_COLOR_BUFFER_BIT); }\n",
     "samples/minimal/main.cpp": SPDX + "void f() {\n    // [snippet]\n    int x = 1;\n    if (x) {\n        return;\n"
                                        "    }\n    // [/snippet]\n}\n",
+    "samples/engine_loop/main.cpp": SPDX + "// [snippet]\nint y = 1;\n// [/snippet]\n",
     "tests/scenes_test.cpp": SPDX + '#define FOLDER "../shared/scenes"\n',
     "build/generated.cpp": "glClear(0) without a licence, ../shared\n",
     "headers.txt": "base/include/rhview/base/box.h\n",
@@ -75,8 +76,11 @@ PLANTED = [
     ("shared_folder", "cli/main.cpp", 'auto f = "../../shared";\n', "cli/main.cpp:1: '../shared'"),
     ("registered_headers", "base/include/rhview/base/x.h", "", "base/include/rhview/base/x.h: not among the HEADERS"),
     ("registered_headers", "headers.txt", "\n", "headers.txt names no header"),
-    ("readme_snippet", "README.md", "```cpp\nint x = 2;\n```\n", "differs from the [snippet] region"),
-    ("readme_snippet", "README.md", "no code\n", "README.md: no ```cpp block"),
+    ("readme_snippet", "README.md", "```cpp\nint x = 2;\n```\n```cpp\nint y = 1;\n```\n",
+     "differs from the [snippet] region of samples/minimal/main.cpp"),
+    ("readme_snippet", "samples/engine_loop/main.cpp", "// [snippet]\nint y = 2;\n// [/snippet]\n",
+     "differs from the [snippet] region of samples/engine_loop/main.cpp"),
+    ("readme_snippet", "README.md", "no code\n", "README.md: 0 ```cpp blocks"),
     ("readme_snippet", "samples/minimal/main.cpp", "int main() {}\n", "found 0"),
 ]
 

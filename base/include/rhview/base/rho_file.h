@@ -56,6 +56,9 @@ class RhoFile {
     [[nodiscard]] Result<MappableArray<std::byte>> section(SectionTag tag, std::uint32_t version,
                                                            std::uint32_t oldest = 1) const;
 
+    /// The version of a section that `section` accepted; 0 where there is none.
+    [[nodiscard]] std::uint32_t version_of(SectionTag tag) const;
+
     /// The section as records of `T`. `T` has no pointers and no padding. Another error: its size is no
     /// multiple of a record's.
     template <class T>

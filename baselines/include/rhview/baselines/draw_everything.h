@@ -24,6 +24,7 @@ class DrawEverything final : public FramePlanner {
   private:
     std::vector<DrawRange> batches_;
     Aabb bounds_;
+    ObjectSorter sorter_;
 };
 
 }  // namespace rhview

@@ -30,6 +30,7 @@ class FrustumObjects final : public FramePlanner {
     std::vector<StaticObject> objects_;
     BoxArrays boxes_;
     std::vector<std::uint64_t> visible_;
+    ObjectSorter sorter_;
 };
 
 }  // namespace rhview

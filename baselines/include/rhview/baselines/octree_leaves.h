@@ -21,7 +21,7 @@ class OctreeLeaves final : public FramePlanner {
   private:
     const RhOctree& octree_;
     NodeList list_;
-    BatchSorter sorter_;
+    PlanSorter sorter_;
 };
 
 }  // namespace rhview

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -23,32 +24,37 @@ namespace rhview::gl {
 /// What was submitted. Of the conditional draws only the device knows which it executed, until the answers
 /// come: `count_executed`.
 struct FrameCounters {
-    std::uint64_t draw_calls = 0;        ///< N: calls issued, of draws at once; a multi-draw is one
-    std::uint64_t sub_draws = 0;         ///< index ranges submitted, of draws at once
-    std::uint64_t indices = 0;           ///< V: three per triangle, of draws at once
-    std::uint64_t material_changes = 0;  ///< times that state was set: per batch and per object
+    std::uint64_t draw_calls =
+        0;  ///< N: calls issued, of draws at once; a multi-draw is one, an instanced too
+    std::uint64_t sub_draws = 0;  ///< index ranges submitted, of draws at once; once for all its instances
+    std::uint64_t indices = 0;    ///< V: three per triangle, of draws at once; times instances
+    std::uint64_t instances = 0;  ///< objects in those
+    std::uint64_t material_changes = 0;  ///< times that state was set: per batch and per run of objects
 
     std::uint64_t queries = 0;                ///< asked, either way
     std::uint64_t query_boxes = 0;            ///< drawn for them
     std::uint64_t query_draw_calls = 0;       ///< that drew them
     std::uint64_t conditional_draws = 0;      ///< calls, direct and indirect
     std::uint64_t conditional_sub_draws = 0;  ///< index ranges in them
-    std::uint64_t conditional_indices = 0;    ///< in those
+    std::uint64_t conditional_indices = 0;    ///< in those, times instances
+    std::uint64_t conditional_instances = 0;
     std::uint64_t indirect_calls = 0;  ///< the part of `conditional_draws` whose commands the device wrote
 };
 
 /// The conditional part of a frame, as far as its answers are known.
 struct ExecutedDraws {
-    std::uint64_t sub_draws = 0;          ///< ranges and objects whose query saw something
+    std::uint64_t sub_draws = 0;          ///< ranges and runs of objects whose query saw something
     std::uint64_t indices = 0;            ///< in those
     std::uint64_t unknown_sub_draws = 0;  ///< no answer among those given
     std::uint64_t unknown_indices = 0;
 };
 
 /// Which of the conditional draws of `plan` the device executed, by `answers`, which may hold others' too.
+/// `placements` as in `DrawOptions`.
 /// Cost: queries × log(answers); allocates.
 ExecutedDraws count_executed(const FramePlan& plan, const SceneBuffers& scene,
-                             std::span<const QueryAnswer> answers);
+                             std::span<const QueryAnswer> answers,
+                             std::span<const glm::dmat4> placements = {});
 
 class WorkCounter;
 
@@ -61,6 +67,9 @@ struct DrawOptions {
     Submission submission = Submission::Plain;
     std::optional<glm::vec3> colour;  ///< instead of the materials' and vertices', whose brightness is kept
     WorkCounter* counter = nullptr;   ///< one that counts meanwhile: paused while boxes are drawn
+    /// Where the objects are, by `ObjectId` (`scene_from_mesh`); only those in the plan are read. Empty:
+    /// where the scene placed them.
+    std::span<const glm::dmat4> placements{};
 };
 
 struct ExecutorOptions {
@@ -68,6 +77,7 @@ struct ExecutorOptions {
     std::uint32_t lost_after_frames = 64;
 };
 
+class ObjectDrawer;
 class OcclusionTests;
 
 /// Draws for one planner, or several whose tickets differ: answers come back by ticket.
@@ -81,6 +91,10 @@ class Executor {
     /// Whether plans may use `QueryWay::BoxPass`; the others can always be drawn.
     [[nodiscard]] bool has_box_pass() const;
 
+    /// Neighbours in `plan.objects` of one mesh, level and mirroring are drawn by one instanced call; so are
+    /// neighbours among the conditional objects that hang on one query. Of the box pass, all neighbours of
+    /// one mesh and mirroring take one indirect call.
+    ///
     /// Draws `plan` into the bound framebuffer and viewport. The vertex transform depends on `view` and the
     /// scene alone, so what two plans both draw gets the same depths to the last bit. Everything it touches
     /// of OpenGL's state is put back. `view.clip_depth` other than OpenGL's own needs
@@ -104,27 +118,27 @@ class Executor {
     [[nodiscard]] AnswerCounters answer_counters() const;
 
   private:
+    friend class SteppedExecutor;
+
     struct Uniforms {
         int clip_from_relative = -1;
         int eye_high = -1;
         int eye_low = -1;
-        int normal_matrix = -1;
         int override_colour = -1;
     };
 
-    void begin(const View& view, const DrawOptions& options) const;
-    void set_transform(const View& view, const glm::dvec3& origin, const glm::dmat4& scene_from_mesh) const;
+    void begin(const View& view) const;
+    void begin_static(const View& view, const glm::dvec3& origin, const DrawOptions& options) const;
     static void set_state(const DrawState& state);
     /// Returns the number of calls.
     std::uint64_t draw_ranges(std::span<const DrawRange> ranges, Submission submission);
     void draw_at_once(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                      Submission submission, FrameCounters& counters);
+                      const DrawOptions& options, FrameCounters& counters);
     void draw_conditional(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                          Submission submission, FrameCounters& counters);
+                          const DrawOptions& options, FrameCounters& counters);
     void draw_conditional_batch(std::span<const ConditionalRange> ranges, Submission submission,
                                 std::size_t& command, FrameCounters& counters);
-    void draw_conditional_object(const ConditionalObject& conditional, const ObjectInstance& object,
-                                 std::size_t& command, FrameCounters& counters);
+    void draw_conditional_objects(std::size_t& command, FrameCounters& counters);
 
     Executor();
 
@@ -134,6 +148,7 @@ class Executor {
     std::vector<std::int32_t> counts_;  ///< scratch of a multi-draw
     std::vector<const void*> offsets_;
     std::vector<DrawRange> run_;  ///< scratch: ranges that hang on one query
+    std::unique_ptr<ObjectDrawer> objects_;
     std::unique_ptr<OcclusionTests> tests_;
 };
 

@@ -30,10 +30,19 @@ class ItemBuffer {
   public:
     static Result<ItemBuffer> create(int width, int height);
 
-    /// Draws `ranges` (by batch, best) and all objects of `scene`; the items that are seen, ascending. Of
-    /// surfaces at the same depth the first drawn is seen. State is put back.
+    static constexpr std::uint32_t kNoItem = 0xffffffffu;
+
+    /// Draws `ranges` (by batch, best) and all objects of `scene`, at full detail, where `placements` (by
+    /// `ObjectId`) says, or if that is empty the scene; the items that are seen, ascending. Of surfaces at
+    /// the same depth the first drawn is seen. State is put back.
     std::vector<std::uint32_t> visible_items(std::span<const ItemRange> ranges, const SceneBuffers& scene,
-                                             const View& view);
+                                             const View& view, std::span<const glm::dmat4> placements = {});
+
+    /// The same, as what each pixel shows, row after row from the lowest. Objects are the items from
+    /// `first_object` on, or none where that is `kNoItem`. Valid until the next call.
+    std::span<const std::uint32_t> item_pixels(std::span<const ItemRange> ranges, std::uint32_t first_object,
+                                               const SceneBuffers& scene, const View& view,
+                                               std::span<const glm::dmat4> placements = {});
 
   private:
     struct Uniforms {
@@ -46,7 +55,7 @@ class ItemBuffer {
     void begin(const View& view) const;
     void set_transform(const View& view, const glm::dvec3& origin, const glm::dmat4& scene_from_mesh) const;
     void draw(const DrawState& state, std::uint32_t first_index, std::uint32_t index_count,
-              std::uint32_t number) const;
+              std::uint32_t item) const;
 
     Program program_;
     Uniforms uniforms_;

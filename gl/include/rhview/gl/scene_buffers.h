@@ -26,31 +26,56 @@ struct DrawState {
     bool two_sided = false;
 };
 
-struct ObjectInstance {
-    DrawState state;
+/// A part of an index buffer.
+struct LevelRange {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
-    glm::dmat4 scene_from_mesh{1.0};
+};
+
+/// Coarser levels of a mesh, level 1 first: ranges of `indices`, which name the mesh's own vertices.
+struct MeshLevels {
+    std::span<const std::uint32_t> indices;
+    std::span<const LevelRange> levels;
+};
+
+struct ObjectInstance {
+    DrawState state;
+    std::uint32_t instanced_array = 0;  ///< the same vertices, and places of instances
+    std::uint32_t mesh = 0;
+    std::uint32_t first_index = 0;  ///< at full detail
+    std::uint32_t index_count = 0;
+    glm::dmat4 scene_from_mesh{1.0};  ///< at time 0
 };
 
 class SceneBuffers {
   public:
     /// Copies the scene. `static_indices` replaces those of the static batches (`RhOctree::indices`: batch
-    /// after batch, then replicas); empty keeps the scene's own. An error when the driver's memory is too
-    /// small.
-    static Result<SceneBuffers> upload(const Scene& scene,
-                                       std::span<const std::uint32_t> static_indices = {});
+    /// after batch, then replicas); empty keeps the scene's own. `levels` by mesh; a mesh beyond the end has
+    /// full detail only. An error when the driver's memory is too small.
+    static Result<SceneBuffers> upload(const Scene& scene, std::span<const std::uint32_t> static_indices = {},
+                                       std::span<const MeshLevels> levels = {});
 
     [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
     [[nodiscard]] std::span<const DrawState> batches() const { return batches_; }
     /// By `ObjectId`, as `Scene` numbers them.
     [[nodiscard]] std::span<const ObjectInstance> objects() const { return objects_; }
+    /// The indices of an object at a level of detail; the coarsest where there is no such level.
+    [[nodiscard]] LevelRange level_range(const ObjectInstance& object, std::uint32_t level) const;
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   private:
+    std::vector<std::uint32_t> write_indices(const Scene& scene,
+                                             std::span<const std::uint32_t> static_indices,
+                                             std::span<const MeshLevels> levels, std::size_t bytes);
+    void make_vertex_arrays(const Scene& scene);
+    void list_objects(const Scene& scene, std::span<const std::uint32_t> first_of_mesh);
+
     Buffer indices_;
     std::vector<Buffer> vertices_;
     std::vector<VertexArray> vertex_arrays_;
+    std::vector<VertexArray> instanced_arrays_;  ///< by pool
+    std::vector<LevelRange> levels_;             ///< of all meshes, coarser ones
+    std::vector<std::uint32_t> first_level_;     ///< by mesh, into `levels_`; one more at the end
     std::vector<DrawState> batches_;
     std::vector<ObjectInstance> objects_;
     glm::dvec3 origin_{0.0};

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "rhview/base/aabb.h"
@@ -39,6 +40,7 @@ struct ConditionalRange {
 struct ConditionalObject {
     ObjectId object{};
     std::uint32_t query = 0;
+    std::uint8_t level = 0;  ///< of detail; 0 is all of it
 
     friend bool operator==(const ConditionalObject&, const ConditionalObject&) = default;
 };
@@ -56,14 +58,17 @@ struct OcclusionSummary {
 struct FramePlan {
     /// Static triangles: one draw call each, by batch, so that state is set once per batch.
     std::vector<DrawRange> opaque;
-    /// Dynamic objects and static instances to draw whole, by id.
+    /// Dynamic objects and static instances to draw whole: by `FrameInput::object_groups`, level and id, so
+    /// that what can share an instanced call stands together.
     std::vector<ObjectId> objects;
+    /// Of detail, by place in `objects`; empty: all at level 0, all of it.
+    std::vector<std::uint8_t> object_levels;
     /// Boxes of the queries, in the scene's coordinates. Their faces may lie on what they hold, to the last
     /// bit: who draws them widens them by what its rounding may move.
     std::vector<Aabb> query_boxes;
     std::vector<PlannedQuery> queries;
-    std::vector<ConditionalRange> conditional;  ///< by batch, then by place
-    std::vector<ConditionalObject> conditional_objects;
+    std::vector<ConditionalRange> conditional;           ///< by batch, then by place
+    std::vector<ConditionalObject> conditional_objects;  ///< by group, level, query and id
     /// What the planner chose, by its own ids (`FramePlanner::bounds_of`): for pictures and statistics.
     std::vector<std::uint32_t> chosen;
     std::uint64_t nodes_visited = 0;
@@ -72,12 +77,37 @@ struct FramePlan {
     /// objects; absent where it has none.
     std::optional<double> predicted_ns;
 
+    /// The level of `objects[i]`.
+    [[nodiscard]] std::uint8_t level_of_object(std::size_t i) const {
+        return object_levels.empty() ? std::uint8_t{0} : object_levels[i];
+    }
     /// Empties the plan and keeps its memory.
     void clear();
 };
 
 /// FNV-1a (64 bits) over what is drawn, in order. Equal plans have equal hashes on every machine.
 std::uint64_t plan_hash(const FramePlan& plan, std::uint64_t seed = 0xcbf29ce484222325ull);
+
+/// Puts the objects of a plan in the order that it promises. Reuse it: no allocation after warm-up.
+class ObjectSorter {
+  public:
+    /// `groups` by `ObjectId`; an object beyond the end is of group 0. Cost: linear in objects and largest
+    /// group.
+    void sort(std::span<const std::uint32_t> groups, FramePlan& plan);
+
+  private:
+    template <class Object, class GroupOf, class LevelOf>
+    void sort_by_group(std::vector<Object>& objects, std::vector<Object>& scratch, GroupOf group_of,
+                       LevelOf level_of);
+
+    struct AtOnce {
+        ObjectId object{};
+        std::uint8_t level = 0;
+    };
+    std::vector<AtOnce> at_once_, at_once_scratch_;
+    std::vector<ConditionalObject> conditional_scratch_;
+    std::vector<std::size_t> offset_;
+};
 
 /// Stable counting sort of draw ranges by batch. Reuse it: no allocation after warm-up.
 class BatchSorter {
@@ -88,6 +118,12 @@ class BatchSorter {
   private:
     std::vector<DrawRange> sorted_;
     std::vector<std::size_t> offset_;
+};
+
+/// Both, for planners.
+struct PlanSorter {
+    BatchSorter ranges;
+    ObjectSorter objects;
 };
 
 }  // namespace rhview

@@ -23,6 +23,9 @@ struct FrameInput {
     glm::dvec3 scene_origin{0.0};           ///< world position of the zero of every box and vertex
     std::span<const Aabb> object_boxes{};   ///< moving or instances, by `ObjectId`; contain what is drawn
     glm::ivec2 viewport_pixels{1280, 720};  ///< what occlusion culling judges the size of boxes by
+    /// By `ObjectId`: objects of equal numbers (one mesh, material and mirroring) can share an instanced
+    /// call. Small numbers; empty: all are of one group.
+    std::span<const std::uint32_t> object_groups{};
 };
 
 /// One per view: it may remember earlier frames. Equal inputs in equal order give equal plans; after the

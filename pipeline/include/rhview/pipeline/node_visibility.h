@@ -49,6 +49,8 @@ class NodeVisibility {
                 FramePlan& plan);
     /// What the draw list of this frame may leave to its queries, in the order of the nodes.
     [[nodiscard]] std::span<const NodeAlternative> alternatives() const { return alternatives_; }
+    /// What `decide` found out about the nodes of this frame.
+    [[nodiscard]] KnownContainment known_containment() const { return {containment_}; }
     /// Hangs what the draw list left out on its queries; in latent mode some of it is dropped.
     void append_conditional(std::span<const AlternativeRange> left, FramePlan& plan) const;
 
@@ -114,6 +116,7 @@ class NodeVisibility {
     Lens lens_;
     double grain_ns_ = 0.0;
     std::vector<ObjectId> objects_in_view_;
+    std::vector<PlaneMask> containment_;  ///< by node
     std::vector<OcclusionCandidate> candidates_;
     OcclusionDecisions decided_;
     std::vector<NodeAlternative> alternatives_;

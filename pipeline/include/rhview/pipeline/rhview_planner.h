@@ -41,6 +41,7 @@ class RhviewPlanner final : public FramePlanner {
     double last_predicted_ns_ = 0.0;
     DrawListSolver solver_;
     DrawList list_;
+    ObjectSorter sorter_;
 };
 
 }  // namespace rhview

@@ -31,7 +31,7 @@ class SeedPlanner final : public FramePlanner {
   private:
     const RhOctree& octree_;
     NodeList list_;
-    BatchSorter sorter_;
+    PlanSorter sorter_;
     DrawCosts costs_;
     std::optional<NodeVisibility> objects_;  ///< of the dynamic objects alone
 };
@@ -39,6 +39,6 @@ class SeedPlanner final : public FramePlanner {
 /// Fills `plan` with the nodes of `list` and the objects in the frustum: what every planner over an octree
 /// ends with.
 void finish_octree_plan(const RhOctree& octree, const NodeList& list, const Frustum& frustum,
-                        const FrameInput& input, BatchSorter& sorter, FramePlan& plan);
+                        const FrameInput& input, PlanSorter& sorter, FramePlan& plan);
 
 }  // namespace rhview

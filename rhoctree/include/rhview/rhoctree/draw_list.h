@@ -37,6 +37,15 @@ struct AlternativeRange {
     friend bool operator==(const AlternativeRange&, const AlternativeRange&) = default;
 };
 
+/// What a traversal of the same frustum found out before: by node, the planes left to test below it
+/// (`classify`). Those are not tested again. Empty: nothing.
+struct KnownContainment {
+    static constexpr PlaneMask kOutside = 0x80;
+    static constexpr PlaneMask kUnknown = 0xff;
+
+    std::span<const PlaneMask> by_node{};
+};
+
 /// What `DrawListSolver` found. Reuse it: clearing keeps the memory.
 struct DrawList {
     std::vector<DrawRange> ranges;               ///< by batch; within a batch along the base order
@@ -64,7 +73,8 @@ class DrawListSolver {
     /// alternative, whichever makes the whole cheaper (a gap that is bridged anyway may cover it). What a
     /// piece of a node above holds is shown with that.
     void solve(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
-               const DrawCosts& costs, DrawList& list, std::span<const NodeAlternative> alternatives = {});
+               const DrawCosts& costs, DrawList& list, std::span<const NodeAlternative> alternatives = {},
+               const KnownContainment& known = {});
 
     /// For each replica that the view meets, adds to `saving_ns` what drawing it would save against the base
     /// order at its place, less the planning that it takes. No replica is drawn, `list` is the base order's.
@@ -79,7 +89,7 @@ class DrawListSolver {
 
     void walk(const RhOctree& octree, const Frustum& frustum, const Viewpoint& viewpoint,
               const DrawCosts& costs, DrawList& list, std::span<const NodeAlternative> alternatives,
-              std::span<double> saving_ns);
+              const KnownContainment& known, std::span<double> saving_ns);
 
     std::vector<RangeRoute> routes_;         ///< by batch
     std::vector<std::uint32_t> told_until_;  ///< by batch: where the last piece of an inner node ends

@@ -45,7 +45,9 @@ struct CameraPath {
     /// leaves a corridor that its keys keep to), the viewing direction turns along the great circle.
     [[nodiscard]] View view_at(double time_s, double aspect, ClipDepth clip_depth) const;
 
-    /// The view of frame `frame` of `frames`, evenly spaced from the first key to the last.
+    /// When frame `frame` of `frames` is, evenly spaced from the first key to the last.
+    [[nodiscard]] double time_of_frame(int frame, int frames) const;
+    /// The view at that time.
     [[nodiscard]] View view_of_frame(int frame, int frames, double aspect, ClipDepth clip_depth) const;
 };
 

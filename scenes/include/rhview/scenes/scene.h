@@ -72,10 +72,27 @@ struct SceneMesh {
     Aabb bounds;
 };
 
+/// A place on the way of a moving object, relative to where it starts.
+struct MotionKey {
+    double time_s = 0.0;
+    glm::dvec3 offset{0.0};  ///< of its origin
+    double turns = 0.0;      ///< about +y through its origin, whole turns
+};
+
+/// A closed way: between keys offset and turns change linearly, after the last one it begins again. The first
+/// key is the start (time, offset and turns 0); times rise; the last has the offset of the first, and has
+/// turned a whole number of times.
+struct ObjectMotion {
+    std::vector<MotionKey> keys;
+};
+
 /// A placed mesh that is not merged into the static batches.
 struct DynamicObject {
+    static constexpr std::uint32_t kStill = 0xffffffffu;
+
     MeshId mesh{};
-    glm::dmat4 scene_from_mesh{1.0};  ///< affine, relative to `Scene::origin`
+    glm::dmat4 scene_from_mesh{1.0};  ///< affine, relative to `Scene::origin`, at time 0
+    std::uint32_t motion = kStill;    ///< into `Scene::motions`
 };
 
 /// A mesh where the scene's author placed it, kept apart from the batches: stored once, culled by its box and
@@ -112,6 +129,7 @@ struct Scene {
     std::vector<SceneBatch> batches;
     std::vector<SceneMesh> meshes;
     std::vector<DynamicObject> dynamic_objects;
+    std::vector<ObjectMotion> motions;  ///< where dynamic objects go: see `object_motion.h`
     std::vector<StaticInstance> static_instances;
     InstancingReport instancing;
     std::uint64_t dropped_triangles = 0;  ///< not finite, left out by the import
@@ -129,8 +147,8 @@ struct Scene {
     /// instances.
     [[nodiscard]] std::size_t object_count() const;
     [[nodiscard]] MeshId object_mesh(ObjectId object) const;
-    [[nodiscard]] const glm::dmat4& object_placement(ObjectId object) const;  ///< `scene_from_mesh`
-    [[nodiscard]] std::vector<Aabb> object_boxes() const;
+    [[nodiscard]] const glm::dmat4& object_placement(ObjectId object) const;  ///< at time 0
+    [[nodiscard]] std::vector<Aabb> object_boxes() const;                     ///< at time 0
     /// Box of everything, static and dynamic, relative to `origin`.
     [[nodiscard]] Aabb bounds() const;
     /// The static batches as spans into this scene; batch i is `BatchId{i}`.

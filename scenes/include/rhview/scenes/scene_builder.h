@@ -46,6 +46,8 @@ class SceneBuilder {
     /// left.
     std::optional<MeshId> add_mesh(MaterialId material, const MeshPiece& piece);
     void add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh);
+    /// One that moves, from there.
+    void add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh, ObjectMotion motion);
     /// Places a mesh that does not move, without copying it. False, and nothing is added, where it can't be
     /// drawn through that map (flat, strongly sheared, not affine, out of float's range): `add_static` it
     /// then.

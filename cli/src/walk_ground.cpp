@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "walk_ground.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "instances.h"
+#include "method.h"
+#include "rhview/gl/timer.h"
+
+namespace rhview::cli {
+namespace {
+
+Status check_options(const WalkOptions& options) {
+    const std::vector<std::string> methods = method_names();
+    if (std::ranges::find(methods, options.method) == methods.end())
+        return Error{fmt::format("--method {}: unknown; the methods are {}", options.method,
+                                 fmt::join(methods, ", "))};
+    if (options.mode != "exact" && options.mode != "latent")
+        return Error{fmt::format("--mode {}: unknown; write exact or latent", options.mode)};
+    const std::array ways{"auto", "hardware", "boxes", "off"};
+    if (std::ranges::find(ways, options.occlusion) == ways.end())
+        return Error{
+            fmt::format("--occlusion {}: unknown; write {}", options.occlusion, fmt::join(ways, ", "))};
+    const bool interactive = is_interactive(options.method);
+    if (options.visible_set && (options.method == "none" || options.method == "frustum" || interactive))
+        return Error{fmt::format("--visible-set: {} has no octree; choose another --method", options.method)};
+    if (options.mode == "latent" && (options.method != "rhview" || options.occlusion == "off"))
+        return Error{"--mode latent: needs --method rhview, and no --occlusion off"};
+    if (options.occlusion == "boxes" && options.method == "rhview-seed")
+        return Error{"--occlusion boxes: rhview-seed asks by hardware queries; leave it out"};
+    if (options.occlusion != "auto" && interactive)
+        return Error{fmt::format("--occlusion {}: {} asks in its own way; leave it out", options.occlusion,
+                                 options.method)};
+    if ((options.hierarchy != "auto" && options.method != "chc" && options.method != "chc++") ||
+        (!options.tune.empty() && options.method != "chc++" && options.method != "nested-grid"))
+        return Error{
+            fmt::format("--hierarchy and --tune: {} has no such choice; leave them out", options.method)};
+    if (const Result<RivalOptions> rival = parse_rival(options.hierarchy, options.tune); !rival)
+        return rival.error();
+    if (options.occlusion != "auto" && options.occlusion != "off" && options.method != "rhview" &&
+        options.method != "rhview-seed")
+        return Error{fmt::format("--occlusion {}: {} asks nothing; choose --method rhview, or leave it out",
+                                 options.occlusion, options.method)};
+    if (options.submission != "plain" && options.submission != "multi")
+        return Error{fmt::format("--submission {}: unknown; write plain or multi", options.submission)};
+    return check_instances(options.instances);
+}
+
+Result<LoadedScene> load(const WalkOptions& options) {
+    Result<LoadedScene> loaded = load_scene(options.scene, options.path);
+    if (loaded && loaded->baked && options.leaf)
+        return Error{fmt::format(
+            "--leaf {}: {} brings its octree, with leaves of at most {} triangles; bake it again with "
+            "another --leaf",
+            *options.leaf, options.scene, loaded->baked->octree.options.max_leaf_triangles)};
+    return loaded;
+}
+
+}  // namespace
+
+Result<WalkWishes> parse_wishes(const WalkOptions& options) {
+    if (Status status = check_options(options); !status) return status.error();
+    const Result<PictureSize> size = parse_size(options.size);
+    if (!size) return size.error();
+    Result<WantedConstants> constants = parse_constants(options.profile, options.set);
+    if (!constants) return constants.error();
+    return WalkWishes{*size, std::move(constants).value()};
+}
+
+Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, Progress& progress) {
+    Result<gl::Context> context = gl::Context::create_headless();
+    if (!context) return context.error();
+    progress.say("loading " + options.scene);
+    Result<LoadedScene> loaded = load(options);
+    if (!loaded) return loaded.error();
+    progress.say("choosing timing constants");
+    Result<ChosenConstants> chosen = choose_constants(
+        wishes.constants, options.scene, *loaded, context->device(), wishes.size.width, wishes.size.height);
+    if (!chosen) return chosen.error();
+    if (!chosen->warning.empty()) {
+        progress.clear();
+        fmt::print(stderr, "rhview: warning: {}\n", chosen->warning);
+    }
+    progress.say("settling instances");
+    const gl::WallTimer timer;
+    if (Status status = settle_instances(*loaded, options.scene, options.instances, chosen->constants);
+        !status)
+        return status.error();
+    const double settle_ms = timer.elapsed_ms();
+    return WalkGround{std::move(context).value(),
+                      std::move(loaded).value(),
+                      std::move(wishes.constants),
+                      std::move(chosen).value(),
+                      wishes.size,
+                      settle_ms};
+}
+
+}  // namespace rhview::cli

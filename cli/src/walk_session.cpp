@@ -1,0 +1,486 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "walk_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "frame_pictures.h"
+#include "method.h"
+#include "occlusion_choice.h"
+#include "reveal_delays.h"
+#include "rhview/gl/item_buffer.h"
+#include "rhview/gl/stepped_executor.h"
+#include "rhview/gl/timer.h"
+#include "rhview/gl/work_counter.h"
+#include "rhview/rhoctree/draw_list.h"
+#include "rhview/scenes/object_motion.h"
+#include "rhview/timing_model/running_update.h"
+#include "statistics.h"
+
+namespace rhview::cli {
+namespace {
+
+constexpr glm::vec3 kSky(0.74f, 0.82f, 0.90f);
+
+Work without_queries(Work work) {
+    work.queries = 0.0;
+    return work;
+}
+
+std::uint64_t distinct(std::vector<std::uint32_t> numbers) {
+    std::ranges::sort(numbers);
+    return static_cast<std::uint64_t>(std::ranges::unique(numbers).begin() - numbers.begin());
+}
+
+WalkReport describe(const WalkOptions& options, const WalkGround& ground, const PreparedMethod& method) {
+    const Scene& scene = ground.loaded.scene;
+    const gl::DeviceInfo& device = ground.context.device();
+    WalkReport report;
+    report.scene = {scene.name,
+                    scene.static_triangles(),
+                    scene.dynamic_objects.size(),
+                    scene.dynamic_triangles(),
+                    scene.materials.size(),
+                    scene.batches.size(),
+                    scene.static_instances.size(),
+                    scene.instance_triangles(),
+                    distinct(object_groups(scene))};
+    report.device = {device.renderer, device.version, "wall"};
+    report.build.ms = method.build_ms;
+    if (method.octree != nullptr) {
+        report.build.nodes = method.octree->nodes().size();
+        report.build.leaves = method.octree->leaf_count();
+        report.build.replicas = method.octree->replicas().size();
+        report.build.replica_bytes = method.octree->replica_bytes();
+        report.build.hierarchy = "octree";
+    }
+    if (method.rival) {
+        report.build.nodes = method.rival->nodes;
+        report.build.leaves = method.rival->leaves;
+        report.build.hierarchy = method.rival->hierarchy;
+        report.in_steps = true;
+    }
+    report.build.instancing = scene.instancing;
+    report.build.index_bytes = scene.index_bytes();
+    report.build.vertex_bytes = scene.vertex_bytes();
+    report.method = options.method;
+    report.mode = options.mode;
+    report.submission = options.submission;
+    report.occlusion = options.occlusion;
+    report.leaf = method.max_leaf_triangles;
+    if (ground.loaded.baked)
+        report.build.load_ms = ground.loaded.baked->load_ms;
+    else
+        report.build.settle_ms = ground.settle_ms;
+    if (ground.chosen.constants)
+        report.profile = {ground.chosen.constants->profile, ground.chosen.constants->source,
+                          ground.chosen.constants->told};
+    else
+        report.why_no_profile = ground.chosen.why_not;
+    report.width = ground.size.width;
+    report.height = ground.size.height;
+    return report;
+}
+
+}  // namespace
+
+/// Everything a walk needs on the device, and the walk itself.
+class WalkSession::Impl {
+  public:
+    Impl(const WalkOptions& options, const WalkGround& ground)
+        : options_(options),
+          ground_(ground),
+          constants_(ground.chosen.constants),
+          scene_(ground.loaded.scene),
+          path_(ground.loaded.path),
+          reference_(make_reference(scene_)),
+          bounds_(scene_.bounds()),
+          clip_depth_(ground.context.device().clip_control ? ClipDepth::ReversedZeroToOne
+                                                           : ClipDepth::NegativeOneToOne),
+          object_groups_(object_groups(scene_)) {
+        place_objects(scene_, 0.0, placements_);
+    }
+
+    Status set_up() {
+        if (Status status = prepare(); !status) return status;
+        report_.plan_hash = plan_hash({});
+        if (constants_) running_.emplace(constants_->profile);
+        return set_up_device();
+    }
+
+    void warm_up() { draw_frame(0); }
+
+    Status walk(int frame) {
+        FrameRecord record = draw_frame(frame);
+        if (running_ && record.predicted_ms) {
+            // Queries are priced apart, by what they asked about.
+            const double query_ms = record.occlusion ? record.occlusion->query_ms : 0.0;
+            const Work draws = without_queries(record.work);
+            record.running_predicted_ms = 1e-6 * running_->predict_ns(draws) + query_ms;
+            if (record.frame_ms > query_ms) running_->observe({draws, 1e6 * (record.frame_ms - query_ms)});
+        }
+        report_.plan_hash = plan_hash(plan_, report_.plan_hash);
+        if (options_.visible_set) record.visible_set_indices = visible_set_indices(frame);
+        const bool checked = options_.check && frame % options_.check_every == 0;
+        const bool pictured = options_.images && frame % options_.images_every == 0;
+        if (checked || pictured)
+            if (Status status = compare_with_everything(frame, checked, pictured, record); !status)
+                return status;
+        report_.frames.push_back(record);
+        return success();
+    }
+
+    Status finish() {
+        if (delays_) report_.reveal_frames = delays_->frames();
+        report_.blocking_reads = answer_counters().blocking_reads;
+        report_.lost_queries = answer_counters().lost;
+        const std::string error = gl::take_error();
+        return error.empty() ? success() : Status(Error{"OpenGL reported: " + error});
+    }
+
+    [[nodiscard]] const WalkReport& report() const { return report_; }
+
+  private:
+    /// The method, ready to plan, and what the report says of it.
+    Status prepare() {
+        Result<RivalOptions> rival = parse_rival(options_.hierarchy, options_.tune);
+        if (!rival) return rival.error();
+        MethodOptions method_options{
+            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value()};
+        if (constants_)
+            method_options.costs = draw_costs(constants_->profile, options_.submission == "multi");
+        std::string why_no_occlusion;
+        if (options_.method == "rhview" || options_.method == "rhview-seed") {
+            list_object_indices();
+            Result<std::optional<OcclusionOptions>> occlusion =
+                choose_occlusion(options_, ground_.wanted, constants_, ground_.size, why_no_occlusion);
+            if (!occlusion) return occlusion.error();
+            method_options.occlusion = *occlusion;
+            if (method_options.occlusion) method_options.occlusion->object_indices = object_indices_;
+        }
+        const std::optional<BakedParts>& baked = ground_.loaded.baked;
+        Result<PreparedMethod> method =
+            prepare_method(options_.method, scene_, method_options, baked ? &baked->octree : nullptr);
+        if (!method) return method.error();
+        method_ = std::move(method).value();
+        report_ = describe(options_, ground_, method_);
+        report_.why_no_occlusion = why_no_occlusion;
+        if (method_options.occlusion) report_.query_costs = method_options.occlusion->costs;
+        return success();
+    }
+
+    void list_object_indices() {
+        const auto count = [&](const auto& placed) {
+            const SceneMesh& mesh = scene_.meshes[index_of(placed.mesh)];
+            object_indices_.push_back(static_cast<std::uint32_t>(mesh.indices.size()));
+        };
+        std::ranges::for_each(scene_.dynamic_objects, count);
+        std::ranges::for_each(scene_.static_instances, count);
+    }
+
+    Status set_up_device() {
+        const PictureSize size = ground_.size;
+        Result<gl::RenderTarget> target = gl::RenderTarget::create(size.width, size.height);
+        if (!target) return Error{"--size: " + target.error().message};
+        target_.emplace(std::move(target).value());
+        Result<gl::Executor> executor = gl::Executor::create();
+        if (!executor) return executor.error();
+        executor_.emplace(std::move(executor).value());
+        if (method_.rival) {
+            Result<gl::SteppedExecutor> stepped = gl::SteppedExecutor::create(*executor_);
+            if (!stepped) return stepped.error();
+            stepped_.emplace(std::move(stepped).value());
+        }
+        Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(scene_, method_.static_indices());
+        if (!buffers) return buffers.error();
+        buffers_.emplace(std::move(buffers).value());
+        const Result<gl::TimerCheck> timer = gl::check_gpu_timer();
+        if (!timer) return timer.error();
+        if (timer->gpu_timer_is_whole()) gpu_timer_.emplace();
+        work_counter_.emplace();
+        report_.device.timer = gpu_timer_ ? "gpu" : "wall";
+        const bool times_delays = options_.mode == "latent" && options_.check && options_.check_every == 1;
+        if (times_delays) delays_.emplace(method_.octree->nodes().size() + scene_.object_count());
+        if (options_.visible_set || times_delays) {
+            Result<gl::ItemBuffer> items = gl::ItemBuffer::create(size.width, size.height);
+            if (!items) return Error{"--size: " + items.error().message};
+            items_.emplace(std::move(items).value());
+            list_leaves();
+        }
+        if (options_.images) {
+            Result<ViewFromAbove> above = ViewFromAbove::create(size.width, size.height);
+            if (!above) return above.error();
+            above_.emplace(std::move(above).value());
+        }
+        return success();
+    }
+
+    [[nodiscard]] View culling_view_of(int frame) const {
+        return view_of(std::min(frame, options_.freeze_culling.value_or(frame)));
+    }
+
+    [[nodiscard]] View view_of(int frame) const {
+        const double aspect = static_cast<double>(target_->width()) / target_->height();
+        return path_.view_of_frame(frame, options_.frames, aspect, clip_depth_);
+    }
+
+    [[nodiscard]] gl::AnswerCounters answer_counters() const {
+        return stepped_ ? stepped_->answer_counters() : executor_->answer_counters();
+    }
+
+    /// The same of a method that draws and asks in turns. What only the device counts is not counted:
+    /// OpenGL knows one occlusion query at a time.
+    FrameRecord draw_in_steps(int frame, const FrameInput& input, const gl::DrawOptions& draw) {
+        FrameRecord record;
+        record.frame = frame;
+        const std::uint64_t waits = stepped_->answer_counters().blocking_reads;
+        const gl::WallTimer timer;
+        if (gpu_timer_) gpu_timer_->begin();
+        stepped_->begin(*buffers_, view_of(frame), draw);
+        const gl::WallTimer method_timer;
+        const double begun_ms = stepped_->device_ms();
+        method_.rival->method->draw(input, *stepped_, drawn_);
+        record.cull_ms = std::max(method_timer.elapsed_ms() - (stepped_->device_ms() - begun_ms), 0.0);
+        const gl::FrameCounters counters = stepped_->end();
+        if (gpu_timer_) gpu_timer_->end();
+        gl::finish();
+        record.frame_ms = timer.elapsed_ms();
+        if (gpu_timer_) record.gpu_ms = gpu_timer_->read_ms();
+        record.work = gl::work_of(counters);
+        record.work.queries = static_cast<double>(counters.queries);
+        std::swap(plan_, drawn_.plan);
+        answers_.swap(drawn_.answers);
+        record.nodes_visited = plan_.nodes_visited;
+        for (const ObjectId id : plan_.objects) count_object(id, record);
+        OcclusionRecord& o = record.occlusion.emplace();
+        o.candidates = plan_.nodes_visited;
+        o.boxes = counters.query_boxes;
+        o.hidden = drawn_.hidden_queries;
+        o.waits = stepped_->answer_counters().blocking_reads - waits;
+        return record;
+    }
+
+    [[nodiscard]] FrameInput input_for(const View& view) const {
+        FrameInput input;
+        input.culling_view = view;
+        input.scene_origin = scene_.origin;
+        input.object_boxes = placements_.boxes;
+        input.object_groups = object_groups_;
+        input.viewport_pixels = {target_->width(), target_->height()};
+        return input;
+    }
+
+    /// One drawing of the frame; the first of several counts, all of them are timed.
+    FrameRecord draw_once(int frame) {
+        const View view = view_of(frame);
+        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        const FrameInput input = input_for(culling_view_of(frame));
+        gl::DrawOptions draw;
+        draw.placements = placements_.scene_from_mesh;
+        draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
+        draw.counter = &*work_counter_;
+        target_->begin(clip_depth_, kSky);
+        gl::finish();
+        if (stepped_) return draw_in_steps(frame, input, draw);
+        FrameRecord record;
+        record.frame = frame;
+        const gl::WallTimer timer;
+        method_.planner->absorb(answers_);
+        method_.planner->plan(input, plan_);
+        record.cull_ms = timer.elapsed_ms();
+        if (gpu_timer_) gpu_timer_->begin();
+        work_counter_->begin();
+        const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, view, draw);
+        work_counter_->end();
+        if (gpu_timer_) gpu_timer_->end();
+        gl::finish();
+        answers_.clear();
+        executor_->poll_answers(answers_);
+        record.frame_ms = timer.elapsed_ms();
+        if (gpu_timer_) record.gpu_ms = gpu_timer_->read_ms();
+        record.work = gl::work_of(counters);
+        work_counter_->read(record.work);
+        record.nodes_visited = plan_.nodes_visited;
+        for (const ObjectId id : plan_.objects) count_object(id, record);
+        if (plan_.occlusion) count_occlusion(counters, record);
+        if (constants_) {
+            record.predicted_ms = 1e-6 * constants_->profile.predict_ns(without_queries(record.work));
+            if (record.occlusion) *record.predicted_ms += record.occlusion->query_ms;
+        }
+        return record;
+    }
+
+    void count_object(ObjectId id, FrameRecord& record) const {
+        ++(index_of(id) < scene_.dynamic_objects.size() ? record.visible_objects : record.visible_instances);
+    }
+
+    /// What hung on queries enters the work as far as the device drew it.
+    void count_occlusion(const gl::FrameCounters& counters, FrameRecord& record) const {
+        const gl::ExecutedDraws executed =
+            gl::count_executed(plan_, *buffers_, answers_, placements_.scene_from_mesh);
+        OcclusionRecord& o = record.occlusion.emplace();
+        o.candidates = plan_.occlusion->candidates;
+        o.boxes = counters.query_boxes;
+        o.hidden = static_cast<std::uint64_t>(std::ranges::count(answers_, false, &QueryAnswer::visible));
+        o.box_pass_queries = static_cast<std::uint64_t>(
+            std::ranges::count(plan_.queries, QueryWay::BoxPass, &PlannedQuery::way));
+        o.conditional_draws = counters.conditional_draws;
+        o.conditional_ranges = counters.conditional_sub_draws;
+        o.executed_ranges = executed.sub_draws + executed.unknown_sub_draws;
+        const std::uint64_t indices = executed.indices + executed.unknown_indices;
+        o.skipped_indices = counters.conditional_indices - indices;
+        o.query_ms = 1e-6 * plan_.occlusion->query_ns;
+        o.exploration_ms = 1e-6 * plan_.occlusion->exploration_ns;
+        o.saved_ms = 1e-6 * plan_.occlusion->saved_ns;
+        for (const ConditionalObject& conditional : plan_.conditional_objects) {
+            const std::uint64_t ticket = plan_.queries[conditional.query].ticket;
+            const auto answer = std::ranges::find(answers_, ticket, &QueryAnswer::ticket);
+            if (answer == answers_.end() || answer->visible) count_object(conditional.object, record);
+        }
+        record.work.queries = static_cast<double>(counters.queries);
+        record.work.draw_calls += static_cast<double>(counters.conditional_draws);
+        record.work.sub_draws += static_cast<double>(counters.conditional_sub_draws);
+        record.work.indices += static_cast<double>(indices);
+    }
+
+    FrameRecord draw_frame(int frame) {
+        FrameRecord record = draw_once(frame);
+        std::vector<double> frame_ms{record.frame_ms}, cull_ms{record.cull_ms},
+            gpu_ms{record.gpu_ms.value_or(0.0)};
+        for (int i = 1; i < options_.repeats; ++i) {
+            const FrameRecord again = draw_once(frame);
+            frame_ms.push_back(again.frame_ms);
+            cull_ms.push_back(again.cull_ms);
+            gpu_ms.push_back(again.gpu_ms.value_or(0.0));
+        }
+        record.frame_ms = summarise(frame_ms).median;
+        record.cull_ms = summarise(cull_ms).median;
+        if (record.gpu_ms) record.gpu_ms = summarise(gpu_ms).median;
+        return record;
+    }
+
+    /// The octree's leaves as items, in their batches' order.
+    void list_leaves() {
+        for (std::uint32_t i = 0; i < method_.octree->nodes().size(); ++i)
+            if (method_.octree->is_leaf(NodeId{i}))
+                for (const DrawRange& range : method_.octree->ranges(NodeId{i}))
+                    leaves_.push_back({range, i});
+        std::ranges::stable_sort(leaves_, {}, [](const gl::ItemRange& leaf) { return leaf.range.batch; });
+    }
+
+    [[nodiscard]] std::uint64_t visible_set_indices(int frame) {
+        std::uint64_t indices = 0;
+        for (const std::uint32_t leaf :
+             items_->visible_items(leaves_, *buffers_, view_of(frame), placements_.scene_from_mesh))
+            indices += 3 * std::uint64_t{method_.octree->node(NodeId{leaf}).triangle_count};
+        return indices;
+    }
+
+    /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
+    Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
+        const View view = view_of(frame);
+        target_->read_depth(culled_depths_);
+        std::optional<gl::Picture> culled;
+        if (pictured) culled.emplace(target_->read_colour());
+        reference_->plan(input_for(view), everything_);
+        gl::DrawOptions draw;
+        draw.placements = placements_.scene_from_mesh;
+        target_->begin(clip_depth_, kSky);
+        executor_->draw(everything_, *buffers_, view, draw);
+        target_->read_depth(reference_depths_);
+        const std::size_t missing = gl::count_missing_pixels(culled_depths_, reference_depths_);
+        if (checked) record.missing_pixels = missing;
+        if (checked && delays_)
+            record.late_items = delays_->add_frame(
+                items_->item_pixels(leaves_, static_cast<std::uint32_t>(method_.octree->nodes().size()),
+                                    *buffers_, view, placements_.scene_from_mesh),
+                culled_depths_, reference_depths_);
+        if (!pictured) return success();
+
+        gl::Picture reference = target_->read_colour();
+        gl::Picture difference = gl::difference_picture(reference, culled_depths_, reference_depths_);
+        const View culling_view = culling_view_of(frame);
+        std::vector<DrawRange> to_show;
+        if (options_.method == "rhview")
+            append_ranges_to_show(*method_.octree, make_frustum(culling_view, scene_.origin),
+                                  make_viewpoint(culling_view, scene_.origin), to_show);
+        gl::Picture above = above_->draw(
+            everything_, plan_, answers_, to_show,
+            [&](std::uint32_t chosen) { return method_.bounds_of(chosen); }, *buffers_, bounds_, culling_view,
+            placements_.scene_from_mesh, *executor_);
+        culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
+                                  record.work.draw_calls, record.work.indices * 1e-6));
+        reference.label("everything drawn");
+        difference.label(fmt::format("missing pixels (red): {}", missing));
+        above.label(!plan_.queries.empty()
+                        ? "from above: a colour per call, gaps violet; asked about: blue hidden, green seen"
+                    : options_.method == "rhview"
+                        ? "from above: a colour per call (replicas blue, green), gaps violet, rest grey"
+                        : "from above: a colour per call, rest grey, nodes blue, frustum red");
+        return gl::sheet(*culled, reference, difference, above)
+            .save_png(*options_.images / fmt::format("frame_{:04}.png", frame));
+    }
+
+    const WalkOptions& options_;
+    const WalkGround& ground_;
+    const std::optional<UserConstants>& constants_;
+    const Scene& scene_;
+    const CameraPath& path_;
+    PreparedMethod method_;
+    std::vector<std::uint32_t> object_indices_;  ///< what the planner refers to
+    WalkReport report_;
+    std::optional<RunningUpdate> running_;
+    std::unique_ptr<FramePlanner> reference_;
+    Aabb bounds_;
+    ClipDepth clip_depth_;
+    std::vector<std::uint32_t> object_groups_;
+    ObjectPlacements placements_;  ///< of the frame
+    std::optional<gl::RenderTarget> target_;
+    std::optional<gl::Executor> executor_;
+    std::optional<gl::SteppedExecutor> stepped_;  ///< of a method that draws and asks in turns
+    DrawnFrame drawn_;                            ///< by it
+    std::optional<gl::SceneBuffers> buffers_;
+    std::optional<gl::GpuTimer> gpu_timer_;
+    std::optional<gl::WorkCounter> work_counter_;
+    std::optional<ViewFromAbove> above_;
+    std::optional<gl::ItemBuffer> items_;
+    std::vector<gl::ItemRange> leaves_;
+    std::optional<RevealDelays> delays_;
+    FramePlan plan_;
+    std::vector<QueryAnswer> answers_;  ///< to the queries of the frame before
+    FramePlan everything_;
+    std::vector<float> culled_depths_;
+    std::vector<float> reference_depths_;
+};
+
+WalkSession::WalkSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+WalkSession::WalkSession(WalkSession&&) noexcept = default;
+WalkSession& WalkSession::operator=(WalkSession&&) noexcept = default;
+WalkSession::~WalkSession() = default;
+
+Result<WalkSession> WalkSession::create(const WalkOptions& options, const WalkGround& ground) {
+    auto impl = std::make_unique<Impl>(options, ground);
+    if (Status status = impl->set_up(); !status) return status.error();
+    return WalkSession(std::move(impl));
+}
+
+void WalkSession::warm_up() {
+    impl_->warm_up();
+}
+
+Status WalkSession::walk(int frame) {
+    return impl_->walk(frame);
+}
+
+Status WalkSession::finish() {
+    return impl_->finish();
+}
+
+const WalkReport& WalkSession::report() const {
+    return impl_->report();
+}
+
+}  // namespace rhview::cli

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// Where the objects of a scene are at a time, and how fast they can be.
+///
+/// Bit-identical on every machine. Objects are numbered as `Scene` numbers them: the dynamic ones first, then
+/// the static instances, which stand still.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <string>
+#include <vector>
+
+#include "rhview/base/aabb.h"
+#include "rhview/base/ids.h"
+#include "rhview/scenes/scene.h"
+
+namespace rhview {
+
+/// `scene_from_mesh` of an object at a time, which may be any finite number: its way repeats. At time 0 it is
+/// `Scene::object_placement`, to the last bit. Cost: about 0.1 µs.
+glm::dmat4 placement_at(const Scene& scene, ObjectId object, double time_s);
+
+/// No point of the object's mesh box moves faster, in units of the scene per second; 0: it stands still.
+double top_speed(const Scene& scene, ObjectId object);
+
+/// All objects at one time, by `ObjectId`.
+struct ObjectPlacements {
+    std::vector<glm::dmat4> scene_from_mesh;
+    std::vector<Aabb> boxes;  ///< contain what is drawn
+};
+
+/// Cost: linear in the moving objects, once `placements` has been filled for this scene; no allocation then.
+void place_objects(const Scene& scene, double time_s, ObjectPlacements& placements);
+
+/// By `ObjectId`: objects with equal numbers share mesh and mirroring, and so can share a draw call. Below
+/// 2 * meshes.
+std::vector<std::uint32_t> object_groups(const Scene& scene);
+
+/// What is wrong with a way, or nothing.
+const char* problem_of(const ObjectMotion& motion);
+
+}  // namespace rhview

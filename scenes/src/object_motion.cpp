@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "rhview/scenes/object_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "rhview/base/assert.h"
+#include "shapes.h"
+
+namespace rhview {
+namespace {
+
+/// The speeds of the segments are rounded up by this.
+constexpr double kRoundingUp = 1.0 + 1e-9;
+
+struct Pose {
+    glm::dvec3 offset{0.0};
+    double turns = 0.0;
+};
+
+Pose pose_at(const ObjectMotion& motion, double time_s) {
+    const double period = motion.keys.back().time_s;
+    double time = std::fmod(time_s, period);
+    if (time < 0.0) time += period;
+    const auto next =
+        std::upper_bound(motion.keys.begin(), motion.keys.end(), time,
+                         [](double wanted, const MotionKey& key) { return wanted < key.time_s; });
+    if (next == motion.keys.end()) return {};
+    const MotionKey& a = *(next - 1);
+    const MotionKey& b = *next;
+    const double t = (time - a.time_s) / (b.time_s - a.time_s);
+    return {a.offset + t * (b.offset - a.offset), a.turns + t * (b.turns - a.turns)};
+}
+
+const DynamicObject* moving_object(const Scene& scene, ObjectId object) {
+    if (index_of(object) >= scene.dynamic_objects.size()) return nullptr;
+    const DynamicObject& dynamic = scene.dynamic_objects[index_of(object)];
+    return dynamic.motion == DynamicObject::kStill ? nullptr : &dynamic;
+}
+
+glm::dmat4 moved(const glm::dmat4& start, const Pose& pose) {
+    const CosSin turn = cos_sin_of_turns(pose.turns);
+    glm::dmat4 placement = start;
+    for (int column = 0; column < 3; ++column) {
+        const glm::dvec3 axis(start[column]);
+        placement[column].x = turn.cos * axis.x + turn.sin * axis.z;
+        placement[column].z = turn.cos * axis.z - turn.sin * axis.x;
+    }
+    placement[3] += glm::dvec4(pose.offset, 0.0);
+    return placement;
+}
+
+/// How far corners of the mesh's box are from the axis that the object turns about.
+double reach_of(const Scene& scene, const DynamicObject& object) {
+    const Aabb& box = scene.meshes[index_of(object.mesh)].bounds;
+    double reach = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 place(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                               corner & 4 ? box.max.z : box.min.z);
+        const glm::dvec3 arm = glm::dmat3(object.scene_from_mesh) * place;
+        reach = std::max(reach, std::sqrt(arm.x * arm.x + arm.z * arm.z));
+    }
+    return reach;
+}
+
+}  // namespace
+
+glm::dmat4 placement_at(const Scene& scene, ObjectId object, double time_s) {
+    const DynamicObject* moving = moving_object(scene, object);
+    if (moving == nullptr) return scene.object_placement(object);
+    return moved(moving->scene_from_mesh, pose_at(scene.motions[moving->motion], time_s));
+}
+
+double top_speed(const Scene& scene, ObjectId object) {
+    const DynamicObject* moving = moving_object(scene, object);
+    if (moving == nullptr) return 0.0;
+    const double swing = 2.0 * std::numbers::pi * reach_of(scene, *moving);
+    const std::vector<MotionKey>& keys = scene.motions[moving->motion].keys;
+    double speed = 0.0;
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        const double way = glm::length(keys[i].offset - keys[i - 1].offset) +
+                           swing * std::abs(keys[i].turns - keys[i - 1].turns);
+        speed = std::max(speed, way / (keys[i].time_s - keys[i - 1].time_s));
+    }
+    return speed * kRoundingUp;
+}
+
+void place_objects(const Scene& scene, double time_s, ObjectPlacements& placements) {
+    if (placements.boxes.size() != scene.object_count()) {
+        placements.boxes = scene.object_boxes();
+        placements.scene_from_mesh.clear();
+        for (std::uint32_t i = 0; i < scene.object_count(); ++i)
+            placements.scene_from_mesh.push_back(scene.object_placement(ObjectId{i}));
+    }
+    for (std::size_t i = 0; i < scene.dynamic_objects.size(); ++i) {
+        const DynamicObject& object = scene.dynamic_objects[i];
+        if (object.motion == DynamicObject::kStill) continue;
+        const glm::dmat4 placement =
+            moved(object.scene_from_mesh, pose_at(scene.motions[object.motion], time_s));
+        placements.scene_from_mesh[i] = placement;
+        placements.boxes[i] = transform_box(placement, scene.meshes[index_of(object.mesh)].bounds);
+    }
+}
+
+std::vector<std::uint32_t> object_groups(const Scene& scene) {
+    std::vector<std::uint32_t> groups;
+    groups.reserve(scene.object_count());
+    for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
+        const bool mirrored = glm::determinant(glm::dmat3(scene.object_placement(ObjectId{i}))) < 0.0;
+        groups.push_back(static_cast<std::uint32_t>(2 * index_of(scene.object_mesh(ObjectId{i}))) +
+                         (mirrored ? 1u : 0u));
+    }
+    return groups;
+}
+
+const char* problem_of(const ObjectMotion& motion) {
+    const std::vector<MotionKey>& keys = motion.keys;
+    if (keys.size() < 2) return "it has fewer than two keys";
+    const auto is_start = [](const MotionKey& key) {
+        return key.offset == glm::dvec3(0.0) && key.turns == std::floor(key.turns);
+    };
+    if (keys.front().time_s != 0.0 || keys.front().turns != 0.0 || !is_start(keys.front()))
+        return "its first key is not the start";
+    if (!is_start(keys.back())) return "its last key does not close it";
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const glm::dvec3& offset = keys[i].offset;
+        if (!std::isfinite(keys[i].time_s) || !std::isfinite(keys[i].turns) || !std::isfinite(offset.x) ||
+            !std::isfinite(offset.y) || !std::isfinite(offset.z))
+            return "a key is not finite";
+        if (i > 0 && !(keys[i].time_s > keys[i - 1].time_s)) return "its times don't rise";
+    }
+    return nullptr;
+}
+
+}  // namespace rhview
