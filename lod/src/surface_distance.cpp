@@ -24,8 +24,9 @@ constexpr double kCutsPerTriangle = 64.0;
 constexpr double kLeastDistance = 1e-7;
 // Halvings of an edge to find where to cut it.
 constexpr int kCutSteps = 10;
-// The least part of it that is worth cutting off, and the least length beside the longest edge: else cutting
-// off one near triangle after the other would take as many cuts in a row as there are.
+// The least part of it that a cut leaves on either side, and its least length beside the longest edge: so
+// each cut makes triangles smaller, and one near triangle after the other is not cut off in as many cuts in a
+// row.
 constexpr double kLeastPart = 0.25;
 constexpr double kLeastEdge = 0.9;
 // Hints pass on within a chunk and not between chunks: what is found must not depend on the threads.
@@ -48,11 +49,11 @@ class Bounder {
         const TriangleTree::Nearest found = to_.nearest((corners[0] + corners[1] + corners[2]) / 3.0, hint_);
         hint_ = found.triangle;
         const Distances near = distances(corners, found.triangle);
-        // The centre is that far indeed: no cut can prove less.
-        const double tight = std::max(enough_, kTightness * std::sqrt(found.distance_squared));
-        if (near.most() <= tight || depth == 0 || cuts_left_ == 0) return near.most();
+        // The centre is that far indeed: no cut, here or elsewhere, can prove less of the whole surface.
+        enough_ = std::max(enough_, kTightness * std::sqrt(found.distance_squared));
+        if (near.most() <= enough_ || depth == 0 || cuts_left_ == 0) return near.most();
         --cuts_left_;
-        const Cut cut = choose_cut(corners, near, found.triangle, tight);
+        const Cut cut = choose_cut(corners, near, found.triangle, enough_);
         Corners first = corners, second = corners;
         first[cut.to] = cut.at;
         second[cut.from] = cut.at;
@@ -99,7 +100,7 @@ class Bounder {
         }
         if (leaving_squared < kLeastEdge * kLeastEdge * longest_squared) return longest;
         const double share = share_within(corners[leaving.from], corners[leaving.to], triangle, tight);
-        if (share < kLeastPart) return longest;
+        if (share < kLeastPart || share > 1.0 - kLeastPart) return longest;
         leaving.at = glm::mix(corners[leaving.from], corners[leaving.to], share);
         return leaving;
     }

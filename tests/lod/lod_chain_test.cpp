@@ -82,7 +82,7 @@ TEST(LodChain, errors_bound_the_sampled_distance_both_ways_and_are_hardly_looser
             const double of_mesh = sampled_distance(mesh, mesh.indices, level, 2);
             const double of_level = sampled_distance(mesh, level, mesh.indices, steps);
             EXPECT_GE(chain.levels[i].error, std::max(of_mesh, of_level)) << i;
-            EXPECT_LE(chain.levels[i].error, 1.4 * std::max(of_mesh, of_level) + 1e-4) << i;
+            EXPECT_LE(chain.levels[i].error, 1.12 * std::max(of_mesh, of_level) + 1e-4) << i;
         }
     }
 }
