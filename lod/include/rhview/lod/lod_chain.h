@@ -66,7 +66,7 @@ struct LodMesh {
 struct LodOptions {
     /// Indices of a level as a share of those of the level before; 0.1 to 0.8.
     double ratio = 0.5;
-    /// No level gets smaller than this, in triangles.
+    /// No level is asked to get smaller than this, in triangles; a sloppy one may all the same.
     std::uint32_t min_triangles = 32;
     /// Vertices on a border (an edge of one triangle) stay: neighbours keep fitting.
     bool lock_borders = false;
