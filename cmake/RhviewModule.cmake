@@ -11,6 +11,7 @@ include_guard(GLOBAL)
 
 set(RHVIEW_FLOOR_base 0)
 set(RHVIEW_FLOOR_frustum 1)
+set(RHVIEW_FLOOR_lod 1)
 set(RHVIEW_FLOOR_scenes 1)
 set(RHVIEW_FLOOR_timing_model 1)
 set(RHVIEW_FLOOR_occlusion_queries 2)
@@ -21,7 +22,7 @@ set(RHVIEW_FLOOR_baselines 4)
 
 # What an engine takes: needs GLM, oneTBB, meshoptimizer and Highway. rhview::rhview links those of them that are built; the package's default
 # component holds them.
-set(RHVIEW_CORE_MODULES base frustum timing_model occlusion_queries rhoctree pipeline)
+set(RHVIEW_CORE_MODULES base frustum lod timing_model occlusion_queries rhoctree pipeline)
 
 # Flags of our own targets only: consumers see none of them.
 function(rhview_private_options target)

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "build_progress.h"
+#include "rhview/base/build_progress.h"
 #include "rhview/base/result.h"
 #include "rhview/base/triangle_batch.h"
 #include "triangle_ids.h"

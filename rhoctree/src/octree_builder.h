@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "build_progress.h"
 #include "morton_sort.h"
+#include "rhview/base/build_progress.h"
 #include "rhview/rhoctree/normal_clusters.h"
 #include "rhview/rhoctree/rhoctree.h"
 #include "triangle_ids.h"

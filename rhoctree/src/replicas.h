@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "build_progress.h"
+#include "rhview/base/build_progress.h"
 #include "rhview/rhoctree/draw_list.h"
 #include "rhview/rhoctree/rhoctree.h"
 

@@ -12,5 +12,5 @@ int main(int argc, char** argv) {
         std::fputs("usage: rhview_rho_corpus FOLDER\n", stderr);
         return 2;
     }
-    return rhview::write_corpus(argv[1]).size() == 7 ? 0 : 1;
+    return rhview::write_corpus(argv[1]).size() == 8 ? 0 : 1;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../rhoctree/random_geometry.h"
+#include "rhview/lod/baked_lod.h"
 #include "rhview/rhoctree/baked_octree.h"
 #include "rhview/scenes/baked_scene.h"
 #include "rhview/scenes/scene_builder.h"
@@ -66,6 +67,10 @@ inline std::vector<std::filesystem::path> write_corpus(const std::filesystem::pa
         add_scene_sections(writer, farm, {"farm", "the tests"});
         add_octree_sections(writer, octree, batches, {.max_leaf_triangles = 2000});
     });
+    const VertexPool& pool = farm.scene.pools[farm.scene.meshes[0].pool];
+    const LodMesh beast{pool.positions.span(), farm.scene.meshes[0].indices.span()};
+    const std::vector<LodChain> chains = build_lod_chains({&beast, 1}, {}).value();
+    write("chains.rho", [&](RhoWriter& writer) { add_lod_sections(writer, chains); });
     return files;
 }
 

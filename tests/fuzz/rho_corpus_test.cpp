@@ -30,7 +30,7 @@ std::vector<RhoBytes> corpus() {
 
 TEST(RhoCorpus, each_file_is_accepted_in_what_it_holds) {
     const std::vector<RhoBytes> files = corpus();
-    ASSERT_EQ(files.size(), 7u);
+    ASSERT_EQ(files.size(), 8u);
     for (std::size_t i = 0; i < files.size(); ++i)
         EXPECT_EQ(use_baked_file(files[i].bytes), i == 6 ? 2 : 1) << i;
 }

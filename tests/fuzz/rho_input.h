@@ -11,13 +11,29 @@
 
 #include "../plan_everything.h"
 #include "../rho_bytes.h"
+#include "rhview/lod/baked_lod.h"
 #include "rhview/rhoctree/baked_octree.h"
 #include "rhview/scenes/baked_scene.h"
 
 namespace rhview {
 
+/// Aborts if a level leaves its chain's indices or vertices, or is not smaller than the one before.
+inline void use_chains(std::span<const LodChain> chains) {
+    for (const LodChain& chain : chains) {
+        if (chain.levels.empty()) std::abort();
+        for (std::size_t i = 1; i < chain.levels.size(); ++i) {
+            const LodLevel& level = chain.levels[i];
+            if (level.index_count >= chain.levels[i - 1].index_count || !std::isfinite(level.error))
+                std::abort();
+            if (level.first_index + std::uint64_t{level.index_count} > chain.indices.size()) std::abort();
+        }
+        for (const std::uint32_t index : chain.indices)
+            if (index >= chain.vertex_count) std::abort();
+    }
+}
+
 /// Reads `bytes` as a baked file and uses all that is accepted: plans its octree, frames its path, adds up
-/// its scene. Aborts if something that was accepted is out of bounds. How many of the two halves were
+/// its scene. Aborts if something that was accepted is out of bounds. How many of the three parts were
 /// accepted.
 inline int use_baked_file(std::span<const std::byte> bytes) {
     const Result<RhoFile> file = RhoFile::parse(FileBytes::copy_of(bytes), "input.rho");
@@ -46,6 +62,10 @@ inline int use_baked_file(std::span<const std::byte> bytes) {
             if (instance.bounds.is_empty() || !std::isfinite(glm::determinant(back))) std::abort();
         }
         if (!validate(baked->scene.path.view_of_frame(1, 3, 1.5, ClipDepth::ZeroToOne))) std::abort();
+    }
+    if (const auto chains = read_lod_sections(*file); chains && chains->has_value()) {
+        ++accepted;
+        use_chains(**chains);
     }
     return accepted;
 }

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 
+/// \file
+/// How far a long build is, and whether it is to go on.
 #pragma once
 
 #include <atomic>
@@ -16,6 +18,7 @@ namespace rhview {
 /// called by any thread.
 class BuildProgress {
   public:
+    /// The callback stays as long as this does; an empty one is never asked.
     explicit BuildProgress(const std::function<bool(double)>& callback) : callback_(callback) {}
 
     /// What follows takes `share` of the build and `steps` steps. Not while another phase is advancing.

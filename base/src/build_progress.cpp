@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 
-#include "build_progress.h"
+#include "rhview/base/build_progress.h"
 
 #include <algorithm>
 
