@@ -7,7 +7,7 @@ namespace rhview {
 
 RhviewPlanner::RhviewPlanner(const RhOctree& octree, const DrawCosts& costs,
                              const std::optional<OcclusionOptions>& occlusion)
-    : octree_(octree), costs_(costs) {
+    : octree_(octree), costs_(costs), order_(octree) {
     if (occlusion) visibility_.emplace(octree, *occlusion);
 }
 
@@ -30,6 +30,7 @@ void RhviewPlanner::plan(const FrameInput& input, FramePlan& plan) {
     }
     solver_.solve(octree_, frustum, viewpoint, costs_, list_, alternatives, known);
     plan.opaque.assign(list_.ranges.begin(), list_.ranges.end());
+    order_.sort(glm::vec3(frustum.eye), costs_.call_ns > 0.0, plan.opaque);
     if (visibility_) visibility_->append_conditional(list_.alternatives, plan);
     sorter_.sort(input.object_groups, plan);
     plan.predicted_ns = list_.predicted_ns + (plan.occlusion ? plan.occlusion->query_ns : 0.0);

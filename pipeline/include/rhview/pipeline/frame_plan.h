@@ -56,7 +56,8 @@ struct OcclusionSummary {
 /// Draw `opaque` and `objects`, ask `queries` against that depth, draw `conditional` and
 /// `conditional_objects`; send the answers to the planner (`FramePlanner::absorb`), whenever they come.
 struct FramePlan {
-    /// Static triangles: one draw call each, by batch, so that state is set once per batch.
+    /// Static triangles: one draw call each. Those of a batch follow one another, so that state is set once;
+    /// `rhview` draws what is near first (`draw_order.h`), and comes to a batch again at another distance.
     std::vector<DrawRange> opaque;
     /// Dynamic objects and static instances to draw whole: by `FrameInput::object_groups`, level and id, so
     /// that what can share an instanced call stands together.

@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "rhview/pipeline/draw_order.h"
 #include "rhview/pipeline/frame_planner.h"
 #include "rhview/pipeline/node_visibility.h"
 #include "rhview/rhoctree/draw_list.h"
@@ -42,6 +43,7 @@ class RhviewPlanner final : public FramePlanner {
     DrawListSolver solver_;
     DrawList list_;
     ObjectSorter sorter_;
+    DrawOrder order_;
 };
 
 }  // namespace rhview
