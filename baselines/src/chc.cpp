@@ -15,7 +15,7 @@ class Chc::Frame {
 
     void draw(const FrameInput& input, OcclusionDevice& device, DrawnFrame& drawn) {
         ++number_;
-        tree_.set_objects(input.object_boxes);
+        tree_.set_objects(input.object_boxes, input.object_alive);
         states_.resize(tree_.nodes().size());
         const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
         recorder_.begin(device, drawn);

@@ -73,7 +73,7 @@ class ChcPlusPlus::Frame {
         ++number_;
         members_.clear();
         groups_of_objects_ = input.object_groups;
-        tree_.set_objects(input.object_boxes);
+        tree_.set_objects(input.object_boxes, input.object_alive);
         const bool other_nodes = states_.size() != tree_.nodes().size();
         while (!leaves_.empty() && (other_nodes || recorder_.has_answer(leaves_.front().asked)))
             take_leaf_answer(leaves_.pop());

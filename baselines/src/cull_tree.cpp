@@ -79,7 +79,8 @@ void CullTree::append_tight(std::uint32_t first) {
     }
 }
 
-void CullTree::set_objects(std::span<const Aabb> boxes) {
+void CullTree::set_objects(std::span<const Aabb> boxes, std::span<const std::uint64_t> alive) {
+    alive_ = alive;
     if (boxes.size() == objects_.order().size()) {
         if (boxes.empty()) return;
         objects_.refit(boxes);

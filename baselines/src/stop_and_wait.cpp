@@ -12,7 +12,7 @@ class StopAndWait::Frame {
     explicit Frame(CullTree tree) : tree_(std::move(tree)) {}
 
     void draw(const FrameInput& input, OcclusionDevice& device, DrawnFrame& drawn) {
-        tree_.set_objects(input.object_boxes);
+        tree_.set_objects(input.object_boxes, input.object_alive);
         const Frustum frustum = make_frustum(input.culling_view, input.scene_origin);
         recorder_.begin(device, drawn);
         queue_.begin(tree_, frustum);

@@ -161,5 +161,22 @@ TEST(CullTree, moving_objects_have_nodes_of_their_own_that_follow_them) {
     }
 }
 
+TEST(CullTree, an_object_that_is_not_alive_is_in_no_leaf) {
+    TileWorld world(1);
+    world.scatter(5, 50, 0, 100);
+    CullTree tree = make_object_tree(world.objects(), world.batches(), 10).tree;
+    std::vector<Aabb> boxes;
+    for (int i = 0; i < 70; ++i)
+        boxes.push_back({glm::vec3(static_cast<float>(i)), glm::vec3(static_cast<float>(i) + 1.0f)});
+    const std::vector<std::uint64_t> alive{~std::uint64_t{0} & ~(std::uint64_t{1} << 5), 0b100};
+    tree.set_objects(boxes, alive);
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t n = 0; n < tree.nodes().size(); ++n)
+        for (const ObjectId object : tree.objects(n)) found.push_back(static_cast<std::uint32_t>(object));
+    EXPECT_EQ(found.size(), 64u);  // all of the first 64 but one, and one of six
+    EXPECT_EQ(std::ranges::count(found, 5u), 0);
+    EXPECT_EQ(std::ranges::count(found, 66u), 1);
+}
+
 }  // namespace
 }  // namespace rhview

@@ -7,6 +7,7 @@
 #include <rhview/base/version.h>
 #include <rhview/base/view.h>
 #include <rhview/frustum/frustum.h>
+#include <rhview/lod/lod_chain.h>
 #include <rhview/pipeline/seed_planner.h>
 #include <rhview/timing_model/profile.h>
 

@@ -49,8 +49,8 @@ class CullTree {
     void find_tight_bounds(const TightBounds& options);
     /// Takes the boxes of moving objects and instances, by `ObjectId`: leaves of a bounding volume hierarchy
     /// of their own beside the static nodes, built when their number changes and refitted otherwise. Cost:
-    /// linear in the objects.
-    void set_objects(std::span<const Aabb> boxes);
+    /// linear in the objects. `alive`: a bit each, as `FrameInput::object_alive`; read until the next call.
+    void set_objects(std::span<const Aabb> boxes, std::span<const std::uint64_t> alive = {});
 
     /// Node 0 is the root: of the static nodes, which follow it, and of the objects'.
     [[nodiscard]] std::span<const CullNode> nodes() const { return nodes_; }
@@ -58,8 +58,13 @@ class CullTree {
     [[nodiscard]] std::span<const DrawRange> ranges(std::uint32_t leaf) const {
         return std::span(ranges_).subspan(nodes_[leaf].first_range, nodes_[leaf].range_count);
     }
+    /// One at most: a leaf whose object is not alive has none.
     [[nodiscard]] std::span<const ObjectId> objects(std::uint32_t leaf) const {
-        return std::span(objects_.order()).subspan(nodes_[leaf].first_object, nodes_[leaf].object_count);
+        const CullNode& node = nodes_[leaf];
+        const auto all = std::span(objects_.order()).subspan(node.first_object, node.object_count);
+        if (all.empty() || alive_.empty()) return all;
+        const std::size_t object = index_of(all.front());
+        return all.first((alive_[object / 64] >> (object % 64) & 1u) != 0 ? 1 : 0);
     }
     /// Nodes whose boxes together hold what the node holds.
     [[nodiscard]] std::span<const std::uint32_t> tight(std::uint32_t node) const {
@@ -73,6 +78,7 @@ class CullTree {
     void append_tight(std::uint32_t first);
 
     std::vector<CullNode> nodes_;
+    std::span<const std::uint64_t> alive_;  ///< empty: all are
     std::vector<DrawRange> ranges_;
     std::vector<std::uint32_t> tight_;
     std::uint32_t static_nodes_ = 0;  ///< with the root
