@@ -29,7 +29,7 @@ std::vector<glm::vec3> positions_of(const std::vector<Vertex>& vertices) {
     return positions;
 }
 
-/// What drawing and asking cost, ns. These are guesses; the sample `calibrate` measures them.
+/// What drawing and asking cost, ns. These are guesses; `rhview calibrate` measures them.
 rhview::OcclusionOptions occlusion_options() {
     rhview::OcclusionOptions options;
     options.costs.hardware = {.query_ns = 4000, .box_ns = 300, .pixel_ns = 0.1, .draw_ns = 500};
