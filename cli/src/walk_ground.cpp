@@ -11,6 +11,7 @@
 #include "instances.h"
 #include "method.h"
 #include "rhview/gl/timer.h"
+#include "walk_pace.h"
 
 namespace rhview::cli {
 namespace {
@@ -59,6 +60,8 @@ Result<LoadedScene> load(const WalkOptions& options) {
             "--leaf {}: {} brings its octree, with leaves of at most {} triangles; bake it again with "
             "another --leaf",
             *options.leaf, options.scene, loaded->baked->octree.options.max_leaf_triangles)};
+    if (loaded)
+        if (const Status pace = check_pace(loaded->path, options); !pace) return pace.error();
     return loaded;
 }
 

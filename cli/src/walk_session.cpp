@@ -20,6 +20,7 @@
 #include "rhview/scenes/object_motion.h"
 #include "rhview/timing_model/running_update.h"
 #include "statistics.h"
+#include "walk_pace.h"
 
 namespace rhview::cli {
 namespace {
@@ -96,7 +97,7 @@ class WalkSession::Impl {
           ground_(ground),
           constants_(ground.chosen.constants),
           scene_(ground.loaded.scene),
-          path_(ground.loaded.path),
+          pace_(ground.loaded.path, options),
           reference_(make_reference(scene_)),
           bounds_(scene_.bounds()),
           clip_depth_(ground.context.device().clip_control ? ClipDepth::ReversedZeroToOne
@@ -125,8 +126,7 @@ class WalkSession::Impl {
             if (record.frame_ms > query_ms) running_->observe({draws, 1e6 * (record.frame_ms - query_ms)});
         }
         report_.plan_hash = plan_hash(plan_, report_.plan_hash);
-        if (options_.visible_set)
-            place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        if (options_.visible_set) place_objects(scene_, pace_.time_of(frame), placements_);
         if (options_.visible_set) record.visible_set_indices = visible_set_indices(frame);
         const bool checked = options_.check && frame % options_.check_every == 0;
         const bool pictured = options_.images && frame % options_.images_every == 0;
@@ -153,7 +153,7 @@ class WalkSession::Impl {
         Result<RivalOptions> rival = parse_rival(options_.hierarchy, options_.tune);
         if (!rival) return rival.error();
         MethodOptions method_options{
-            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value(), frame_seconds()};
+            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value(), pace_.longest_step_s()};
         if (constants_)
             method_options.costs = draw_costs(constants_->profile, options_.submission == "multi");
         std::string why_no_occlusion;
@@ -174,15 +174,6 @@ class WalkSession::Impl {
         report_.why_no_occlusion = why_no_occlusion;
         if (method_options.occlusion) report_.query_costs = method_options.occlusion->costs;
         return success();
-    }
-
-    /// The greatest step of the path's time between frames.
-    [[nodiscard]] double frame_seconds() const {
-        double most = 0.0;
-        for (int frame = 1; frame < options_.frames; ++frame)
-            most = std::max(most, path_.time_of_frame(frame, options_.frames) -
-                                      path_.time_of_frame(frame - 1, options_.frames));
-        return most;
     }
 
     void list_object_indices() {
@@ -237,7 +228,7 @@ class WalkSession::Impl {
 
     [[nodiscard]] View view_of(int frame) const {
         const double aspect = static_cast<double>(target_->width()) / target_->height();
-        return path_.view_of_frame(frame, options_.frames, aspect, clip_depth_);
+        return pace_.view_of(frame, aspect, clip_depth_);
     }
 
     [[nodiscard]] gl::AnswerCounters answer_counters() const {
@@ -318,7 +309,7 @@ class WalkSession::Impl {
     /// One drawing of the frame; the first of several counts, all of them are timed.
     FrameRecord draw_once(int frame) {
         const View view = view_of(frame);
-        const double time_s = path_.time_of_frame(frame, options_.frames);
+        const double time_s = pace_.time_of(frame);
         gl::DrawOptions draw;
         draw.placements = placements_.scene_from_mesh;
         draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
@@ -431,7 +422,7 @@ class WalkSession::Impl {
     /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
     Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
         const View view = view_of(frame);
-        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        place_objects(scene_, pace_.time_of(frame), placements_);
         target_->read_depth(culled_depths_);
         std::optional<gl::Picture> culled;
         if (pictured) culled.emplace(target_->read_colour());
@@ -478,7 +469,7 @@ class WalkSession::Impl {
     const WalkGround& ground_;
     const std::optional<UserConstants>& constants_;
     const Scene& scene_;
-    const CameraPath& path_;
+    WalkPace pace_;
     PreparedMethod method_;
     std::vector<std::uint32_t> object_indices_;  ///< what the planner refers to
     WalkReport report_;
