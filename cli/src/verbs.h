@@ -71,6 +71,12 @@ struct CompareOptions {
     std::filesystem::path program;
 };
 
+struct ViewOptions {
+    WalkOptions walk;
+    std::optional<std::filesystem::path> script;
+    std::filesystem::path folder = ".";  ///< where screenshots and recordings go
+};
+
 struct BakeOptions {
     std::string scene;
     std::filesystem::path output;
@@ -90,5 +96,7 @@ Result<int> run_calibrate(const CalibrateOptions& options);
 Result<int> run_walk(const WalkOptions& options);
 Result<int> run_compare(const CompareOptions& options);
 Result<int> run_bake(const BakeOptions& options);
+/// An error in a build without the viewer.
+Result<int> run_view(const ViewOptions& options);
 
 }  // namespace rhview::cli

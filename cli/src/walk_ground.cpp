@@ -76,12 +76,17 @@ Result<WalkWishes> parse_wishes(const WalkOptions& options) {
 Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, Progress& progress) {
     Result<gl::Context> context = gl::Context::create_headless();
     if (!context) return context.error();
+    return prepare_ground(options, std::move(wishes), std::move(context).value(), progress);
+}
+
+Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, gl::Context context,
+                                  Progress& progress) {
     progress.say("loading " + options.scene);
     Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
     progress.say("choosing timing constants");
     Result<ChosenConstants> chosen = choose_constants(
-        wishes.constants, options.scene, *loaded, context->device(), wishes.size.width, wishes.size.height);
+        wishes.constants, options.scene, *loaded, context.device(), wishes.size.width, wishes.size.height);
     if (!chosen) return chosen.error();
     if (!chosen->warning.empty()) {
         progress.clear();
@@ -93,7 +98,7 @@ Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes,
         !status)
         return status.error();
     const double settle_ms = timer.elapsed_ms();
-    return WalkGround{std::move(context).value(),
+    return WalkGround{std::move(context),
                       std::move(loaded).value(),
                       std::move(wishes.constants),
                       std::move(chosen).value(),
