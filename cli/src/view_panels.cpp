@@ -15,7 +15,9 @@
 namespace rhview::cli {
 namespace {
 
-constexpr float kWidth = 340.0f;
+constexpr float kMargin = 8.0f;
+constexpr float kWidth = 350.0f;
+constexpr float kPlotWidth = 300.0f;
 constexpr float kPlotHeight = 54.0f;
 constexpr ImU32 kMeasured = IM_COL32(255, 200, 60, 255);
 constexpr ImU32 kPredicted = IM_COL32(90, 200, 255, 255);
@@ -139,7 +141,7 @@ void plot(const char* name, const char* unit, const std::vector<FrameRecord>& fr
     };
     line(other, kPredicted);
     line(field, kMeasured);
-    list.AddText({corner.x + 3.0f, corner.y + 1.0f}, IM_COL32(255, 255, 255, 120),
+    list.AddText({corner.x + size.x - 50.0f, corner.y + 1.0f}, IM_COL32(255, 255, 255, 120),
                  fmt::format("{:.4g}", greatest).c_str());
 }
 
@@ -175,8 +177,8 @@ void make_legend(const ViewSession& session) {
     if (!session.is_frozen() && !session.shows_colours()) return;
     const bool asks = !session.plan().queries.empty();
     const std::array entries{
-        LegendEntry{IM_COL32(255, 140, 25, 255), "draw calls from the base order, yellow to red"},
-        LegendEntry{IM_COL32(13, 140, 185, 255), "draw calls from replicas, blue to green"},
+        LegendEntry{IM_COL32(255, 140, 25, 255), "drawn from the base order, a colour a call"},
+        LegendEntry{IM_COL32(13, 140, 185, 255), "drawn from replicas"},
         LegendEntry{IM_COL32(178, 25, 217, 255), "bridged gaps"},
         LegendEntry{IM_COL32(128, 130, 135, 255), "not drawn"},
         LegendEntry{IM_COL32(25, 64, 191, 255), asks ? "asked about: nothing seen" : "chosen nodes"},
@@ -204,12 +206,13 @@ void make_keys() {
 }  // namespace
 
 void make_panels(ViewSession& session, Commands& commands) {
+    constexpr ImGuiWindowFlags kFixed =
+        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({8.0f, 8.0f}, ImGuiCond_Always);
-    ImGui::SetNextWindowSize({kWidth, display.y - 16.0f}, ImGuiCond_Always);
-    ImGui::Begin("rhview", nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
-    ImGui::PushItemWidth(0.55f * kWidth);
+    ImGui::SetNextWindowPos({kMargin, kMargin}, ImGuiCond_Always);
+    ImGui::SetNextWindowSizeConstraints({kWidth, 0.0f}, {kWidth, display.y - 2.0f * kMargin});
+    ImGui::Begin("rhview", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushItemWidth(0.5f * kWidth);
     make_scene_panel(session);
     ImGui::Separator();
     make_method_panel(session, commands);
@@ -218,11 +221,15 @@ void make_panels(ViewSession& session, Commands& commands) {
     ImGui::Separator();
     make_camera_panel(session, commands);
     make_legend(session);
-    ImGui::Separator();
-    make_plots(session);
     if (ImGui::CollapsingHeader("keys")) make_keys();
     if (!session.message().empty()) ImGui::TextWrapped("%s", session.message().c_str());
     ImGui::PopItemWidth();
+    ImGui::End();
+
+    ImGui::SetNextWindowPos({display.x - kPlotWidth - kMargin, kMargin}, ImGuiCond_Always);
+    ImGui::SetNextWindowSize({kPlotWidth, 0.0f}, ImGuiCond_Always);
+    ImGui::Begin("frames", nullptr, kFixed);
+    make_plots(session);
     ImGui::End();
 }
 

@@ -97,9 +97,8 @@ struct ViewWindow::State {
             }
         });
         glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int action, int) {
-            State& state = of(w);
-            state.dragging = action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
-            glfwGetCursorPos(w, &state.mouse_x, &state.mouse_y);
+            // Where the mouse is comes from its own events: asked now, the answer may be of a later one.
+            of(w).dragging = action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
         });
         glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
             State& state = of(w);
