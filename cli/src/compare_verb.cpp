@@ -9,6 +9,7 @@
 #include "compare_report.h"
 #include "method_list.h"
 #include "output_file.h"
+#include "pareto.h"
 #include "report_page.h"
 #include "verbs.h"
 #include "walk_session.h"
@@ -69,15 +70,22 @@ std::size_t reference_of(const std::vector<ListedMethod>& methods) {
     return found == methods.end() ? 0 : static_cast<std::size_t>(found - methods.begin());
 }
 
+std::string method_list(const CompareOptions& options) {
+    if (!options.pareto) return options.methods.value_or(kDefaultMethods);
+    return options.methods ? *options.methods + "," + pareto_methods() : pareto_methods();
+}
+
 /// The methods, validated; the reference makes the report's picture.
 Result<std::vector<ListedMethod>> list_methods(const CompareOptions& options) {
     if (options.order != "frame" && options.order != "run")
         return Error{fmt::format("--order {}: unknown; write frame or run", options.order)};
-    Result<std::vector<ListedMethod>> methods = parse_methods(options.methods, options.walk);
+    Result<std::vector<ListedMethod>> methods = parse_methods(method_list(options), options.walk);
     if (!methods) return methods.error();
-    for (ListedMethod& method : *methods)
+    for (ListedMethod& method : *methods) {
+        if (options.pareto && method.walk.image_error_every == 0) method.walk.image_error_every = 1;
         if (const Result<WalkWishes> wishes = parse_wishes(method.walk); !wishes)
             return Error{fmt::format("--methods {}: {}", method.label, wishes.error().message)};
+    }
     if (options.report) {
         WalkOptions& pictured = (*methods)[reference_of(*methods)].walk;
         pictured.images = *options.report / kPicture;
@@ -121,6 +129,7 @@ CompareReport report_of(const CompareOptions& options, const std::vector<ListedM
     for (std::size_t i = 0; i < methods.size(); ++i)
         report.runs.push_back({methods[i].label, &sessions[i].report()});
     report.reference = reference_of(methods);
+    report.pareto = options.pareto;
     report.by_frame = options.order == "frame";
     report.command = options.command;
     return report;

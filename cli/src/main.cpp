@@ -36,11 +36,18 @@ void add_info(CLI::App& app, InfoOptions& options) {
     info->add_option("--json", options.json, "Write it as JSON")->type_name("FILE");
 }
 
-void add_octree_options(CLI::App& verb, std::optional<std::uint32_t>& leaf, double& replica_budget) {
-    verb.add_option("--leaf", leaf,
-                    "Triangles per octree leaf, at most; default: rhview chooses, the others take 4096")
-        ->type_name("N")
-        ->check(CLI::Range(1u, 4'000'000'000u));
+constexpr const char* kLeafHelp =
+    "Triangles per octree leaf, at most; default: rhview chooses, the others take 4096";
+constexpr const char* kLeafHelpOfAll =
+    "Triangles per leaf, at most; default: rhview chooses; octree, rhview-seed and octrees of chc and chc++ "
+    "take "
+    "4096, their hierarchies over the scene's objects 1024, cells of nested-grid 16384; none, frustum and "
+    "grid have "
+    "no leaves";
+
+void add_octree_options(CLI::App& verb, const char* leaf_help, std::optional<std::uint32_t>& leaf,
+                        double& replica_budget) {
+    verb.add_option("--leaf", leaf, leaf_help)->type_name("N")->check(CLI::Range(1u, 4'000'000'000u));
     verb.add_option("--replica-budget", replica_budget,
                     "Bytes of rhview's replicas, as a multiple of the source indices' bytes")
         ->type_name("R")
@@ -113,11 +120,20 @@ void add_walk_options(CLI::App* walk, WalkOptions& options) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
-    add_octree_options(*walk, options.leaf, options.replica_budget);
+    add_octree_options(*walk, kLeafHelpOfAll, options.leaf, options.replica_budget);
     add_instance_options(*walk, options.instances);
     walk->add_option("--submission", options.submission,
                      "plain: a call per range; multi: a multi-draw per batch")
         ->capture_default_str();
+    walk->add_option("--visible-pixels", options.visible_pixels,
+                     "--mode latent: what shows fewer pixels of its boxes than this is left out as well")
+        ->type_name("PX")
+        ->check(CLI::Range(0u, 1'000'000'000u));
+    walk->add_option("--image-error", options.image_error_every,
+                     "Measure every N-th frame's difference from everything at full detail: depth error, "
+                     "PSNR, SSIM")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000));
     walk->add_flag("--check", options.check, "Compare every frame's depth with drawing everything");
     walk->add_option("--check-every", options.check_every, "Check every N-th frame only (implies --check)")
         ->type_name("N")
@@ -151,9 +167,13 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     compare
         ->add_option("--methods", options.methods,
                      "Methods, separated by commas, each with options of its own behind colons (leaf, "
-                     "replica-budget, mode, occlusion, submission): octree:leaf=4096,rhview")
-        ->type_name("a,b,…")
-        ->capture_default_str();
+                     "replica-budget, mode, visible-pixels, occlusion, hierarchy, submission): "
+                     "octree:leaf=4096,rhview; default: " +
+                         std::string(kDefaultMethods))
+        ->type_name("a,b,…");
+    compare->add_flag("--pareto", options.pareto,
+                      "Add rhview with everything that it may give up for speed (latent mode, visibility "
+                      "thresholds), measure the picture's error, tell the front");
     compare
         ->add_option("--order", options.order,
                      "frame: methods take turns frame by frame; run: one walks after the other")
@@ -175,7 +195,7 @@ void add_bake(CLI::App& app, BakeOptions& options) {
     bake->add_option("--method", options.method, "Whose octree: octree, rhview-seed or rhview")
         ->type_name("M")
         ->capture_default_str();
-    add_octree_options(*bake, options.leaf, options.replica_budget);
+    add_octree_options(*bake, kLeafHelp, options.leaf, options.replica_budget);
     add_instance_options(*bake, options.instances);
     bake->add_option(
             "--profile", options.profile,

@@ -45,6 +45,8 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
         if (!read_number(value, walk.replica_budget) ||
             !(walk.replica_budget >= 0.0 && walk.replica_budget <= 1000.0))
             return wrong("a number from 0 to 1000");
+    } else if (name == "visible-pixels") {
+        if (!read_number(value, walk.visible_pixels)) return wrong("a whole number of pixels");
     } else if (name == "mode") {
         walk.mode = value;
     } else if (name == "occlusion") {
@@ -56,8 +58,7 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
     } else {
         return Error{
             fmt::format("--methods {}: there is no option '{}'; a method has leaf, replica-budget, mode, "
-                        "occlusion, hierarchy and "
-                        "submission",
+                        "visible-pixels, occlusion, hierarchy and submission",
                         label, name)};
     }
     return success();
@@ -77,7 +78,7 @@ Result<std::vector<ListedMethod>> parse_methods(const std::string& list, const W
             return Error{fmt::format("--methods {}: {} is listed twice; list it once", list, label)};
         ListedMethod method{label, common};
         method.walk.method = parts[0];
-        if (parts[0] != "rhview") method.walk.mode = "exact";
+        if (parts[0] != "rhview") method.walk.mode = "exact", method.walk.visible_pixels = 0;
         if (!parts[0].starts_with("rhview")) method.walk.occlusion = "auto";
         if (!is_interactive(parts[0])) method.walk.hierarchy = "auto", method.walk.tune.clear();
         for (std::size_t i = 1; i < parts.size(); ++i)

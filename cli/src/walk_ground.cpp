@@ -32,6 +32,11 @@ Status check_options(const WalkOptions& options) {
         return Error{fmt::format("--visible-set: {} has no octree; choose another --method", options.method)};
     if (options.mode == "latent" && (options.method != "rhview" || options.occlusion == "off"))
         return Error{"--mode latent: needs --method rhview, and no --occlusion off"};
+    if (options.visible_pixels > 0 && (options.mode != "latent" || options.occlusion == "boxes"))
+        return Error{
+            fmt::format("--visible-pixels {}: needs --mode latent, and no --occlusion boxes (only hardware "
+                        "queries count)",
+                        options.visible_pixels)};
     if (options.occlusion == "boxes" && options.method == "rhview-seed")
         return Error{"--occlusion boxes: rhview-seed asks by hardware queries; leave it out"};
     if (options.occlusion != "auto" && interactive)

@@ -69,6 +69,7 @@ WalkReport describe(const WalkOptions& options, const WalkGround& ground, const 
     report.build.vertex_bytes = scene.vertex_bytes();
     report.method = options.method;
     report.mode = options.mode;
+    report.visible_pixels = options.visible_pixels;
     report.submission = options.submission;
     report.occlusion = options.occlusion;
     report.leaf = method.max_leaf_triangles;
@@ -130,9 +131,12 @@ class WalkSession::Impl {
         if (options_.visible_set) record.visible_set_indices = visible_set_indices(frame);
         const bool checked = options_.check && frame % options_.check_every == 0;
         const bool pictured = options_.images && frame % options_.images_every == 0;
+        const bool measured = options_.image_error_every > 0 && frame % options_.image_error_every == 0;
+        if (measured) keep_picture();
         if (checked || pictured)
             if (Status status = compare_with_everything(frame, checked, pictured, record); !status)
                 return status;
+        if (measured) record.image_error = image_error(frame);
         report_.frames.push_back(record);
         return success();
     }
@@ -474,6 +478,30 @@ class WalkSession::Impl {
             .save_png(*options_.images / fmt::format("frame_{:04}.png", frame));
     }
 
+    /// Before anything else is drawn into the target.
+    void keep_picture() {
+        kept_.emplace(target_->read_colour());
+        target_->read_depth(kept_depths_);
+    }
+
+    /// Of the picture kept, against everything at full detail.
+    [[nodiscard]] gl::ImageDifference image_error(int frame) {
+        ReferenceFrame& reference = *ground_.reference;
+        const View view = view_of(frame);
+        if (reference.frame != frame) {
+            place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+            reference_->plan(input_for(view), everything_);
+            gl::DrawOptions draw;
+            draw.placements = placements_.scene_from_mesh;
+            target_->begin(clip_depth_, kSky);
+            executor_->draw(everything_, *buffers_, view, draw);
+            reference.colour.emplace(target_->read_colour());
+            target_->read_depth(reference.depths);
+            reference.frame = frame;
+        }
+        return gl::image_difference(*kept_, kept_depths_, *reference.colour, reference.depths, view);
+    }
+
     const WalkOptions& options_;
     const WalkGround& ground_;
     const std::optional<UserConstants>& constants_;
@@ -505,6 +533,8 @@ class WalkSession::Impl {
     FramePlan everything_;
     std::vector<float> culled_depths_;
     std::vector<float> reference_depths_;
+    std::optional<gl::Picture> kept_;  ///< the culled frame, where its error is measured
+    std::vector<float> kept_depths_;
 };
 
 WalkSession::WalkSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
