@@ -98,7 +98,7 @@ void add_walk_options(CLI::App* walk, WalkOptions& options) {
         ->capture_default_str();
     walk->add_option("--tune", options.tune,
                      "Parameters of chc++ (batch, visible-frames, tight-depth, tight-area, visible-query) "
-                     "and nested-grid (levels, top-cells, inner-cells); docs/rivals.md")
+                     "nested-grid (levels, top-cells, inner-cells) and grid (cells); docs/rivals.md")
         ->type_name("KEY=VALUE,…");
     walk->add_option("--path", options.path, "Camera path (rhview.path/1), instead of the scene's own")
         ->type_name("FILE");

@@ -55,10 +55,12 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
         walk.hierarchy = value;
     } else if (name == "submission") {
         walk.submission = value;
+    } else if (is_tune_key(name)) {
+        walk.tune += (walk.tune.empty() ? "" : ",") + option;
     } else {
         return Error{
             fmt::format("--methods {}: there is no option '{}'; a method has leaf, replica-budget, mode, "
-                        "visible-pixels, occlusion, hierarchy and submission",
+                        "visible-pixels, occlusion, hierarchy, submission and the keys of --tune",
                         label, name)};
     }
     return success();
@@ -80,7 +82,8 @@ Result<std::vector<ListedMethod>> parse_methods(const std::string& list, const W
         method.walk.method = parts[0];
         if (parts[0] != "rhview") method.walk.mode = "exact", method.walk.visible_pixels = 0;
         if (!parts[0].starts_with("rhview")) method.walk.occlusion = "auto";
-        if (!is_interactive(parts[0])) method.walk.hierarchy = "auto", method.walk.tune.clear();
+        if (!has_hierarchy(parts[0])) method.walk.hierarchy = "auto";
+        if (!has_tune(parts[0])) method.walk.tune.clear();
         for (std::size_t i = 1; i < parts.size(); ++i)
             if (Status status = read_option(label, parts[i], method.walk); !status) return status.error();
         methods.push_back(std::move(method));

@@ -42,8 +42,8 @@ Status check_options(const WalkOptions& options) {
     if (options.occlusion != "auto" && interactive)
         return Error{fmt::format("--occlusion {}: {} asks in its own way; leave it out", options.occlusion,
                                  options.method)};
-    if ((options.hierarchy != "auto" && options.method != "chc" && options.method != "chc++") ||
-        (!options.tune.empty() && options.method != "chc++" && options.method != "nested-grid"))
+    if ((options.hierarchy != "auto" && !has_hierarchy(options.method)) ||
+        (!options.tune.empty() && !has_tune(options.method)))
         return Error{
             fmt::format("--hierarchy and --tune: {} has no such choice; leave them out", options.method)};
     if (const Result<RivalOptions> rival = parse_rival(options.hierarchy, options.tune); !rival)

@@ -133,6 +133,22 @@ TEST_F(Compare, pareto_walks_every_choice_and_its_fronts_hold_what_nothing_beats
     }
 }
 
+TEST_F(Compare, each_method_has_its_own_parameters) {
+    const nlohmann::json compared = compare_json(
+        "compare spheres:spheres=1200,moving=60,sides=8 --frames 12 --warmup 1 --size 160x90 --check --set "
+        "c1=1,c3=500 --tune batch=20 --hierarchy octree --methods frustum,grid,grid:cells=2000,chc:leaf=300,"
+        "chc++:batch=5,nested-grid:levels=2:top-cells=4");
+    const auto of = [&](std::size_t run, const char* what) {
+        return compared["runs"][run]["summary"][what]["mean"].get<double>();
+    };
+    for (const nlohmann::json& run : compared["runs"])
+        EXPECT_EQ(run["summary"]["missing_pixels"]["total"], 0) << run["label"];
+    EXPECT_LT(of(1, "indices"), of(2, "indices"));
+    EXPECT_LT(of(2, "indices"), of(0, "indices"));
+    EXPECT_EQ(compared["runs"][3]["leaf"], 300);
+    EXPECT_EQ(compared["runs"][3]["build"]["hierarchy"], "octree");
+}
+
 TEST_F(Compare, modelled_price_is_that_of_8000_indices_a_draw) {
     const nlohmann::json compared = compare_json(kCity + " --methods frustum,chc,rhview");
     EXPECT_TRUE(compared["pareto"].is_null());
@@ -161,6 +177,8 @@ TEST_F(Compare, refuses_what_it_does_not_know_in_a_sentence) {
     refuse(kCity + " --methods octree:leaf=0", "leaf=0");
     refuse(kCity + " --methods octree:leaf=12x", "leaf=12x");
     refuse(kCity + " --methods octree:colour=red", "colour");
+    refuse(kCity + " --methods grid:cells=none", "cells=none");
+    refuse(kCity + " --methods octree:cells=2000", "has no such choice");
     refuse(kCity + " --methods rhview:mode=vague", "vague");
     refuse(kCity + " --methods rhview:visible-pixels=4", "needs --mode latent");
     refuse(kCity + " --methods rhview:mode=latent:visible-pixels=few", "whole number of pixels");
