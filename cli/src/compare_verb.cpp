@@ -137,7 +137,10 @@ Result<int> run_compare(const CompareOptions& options) {
     if (Status status = outputs.open(options); !status) return status.error();
 
     Progress progress;
-    const Result<WalkGround> ground = prepare_ground(options.walk, std::move(wishes).value(), progress);
+    WalkOptions common = options.walk;
+    for (const ListedMethod& method : *methods)
+        common.lod_error_px = std::max(common.lod_error_px, method.walk.lod_error_px);
+    const Result<WalkGround> ground = prepare_ground(common, std::move(wishes).value(), progress);
     if (!ground) return ground.error();
     std::vector<WalkSession> sessions;
     for (const ListedMethod& method : *methods) {

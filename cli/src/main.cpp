@@ -118,6 +118,16 @@ void add_walk_options(CLI::App* walk, WalkOptions& options) {
     walk->add_option("--submission", options.submission,
                      "plain: a call per range; multi: a multi-draw per batch")
         ->capture_default_str();
+    walk->add_option("--lod-error", options.lod_error_px,
+                     "Largest error of dynamic objects' levels of detail, in pixels; 0: full detail")
+        ->type_name("PX")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->capture_default_str();
+    walk->add_option(
+            "--budget", options.budget_ms,
+            "Frame budget: levels of detail give way to it, and each frame says whether it can be met")
+        ->type_name("MS")
+        ->check(CLI::Range(0.001, 1e6));
     walk->add_flag("--check", options.check, "Compare every frame's depth with drawing everything");
     walk->add_option("--check-every", options.check_every, "Check every N-th frame only (implies --check)")
         ->type_name("N")
@@ -151,7 +161,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     compare
         ->add_option("--methods", options.methods,
                      "Methods, separated by commas, each with options of its own behind colons (leaf, "
-                     "replica-budget, mode, occlusion, submission): octree:leaf=4096,rhview")
+                     "replica-budget, mode, occlusion, submission, lod-error): octree:leaf=4096,rhview")
         ->type_name("a,b,…")
         ->capture_default_str();
     compare
@@ -169,7 +179,8 @@ void add_compare(CLI::App& app, CompareOptions& options) {
 }
 
 void add_bake(CLI::App& app, BakeOptions& options) {
-    CLI::App* bake = app.add_subcommand("bake", "Build a scene's octree once and save both");
+    CLI::App* bake =
+        app.add_subcommand("bake", "Build a scene's octree and levels of detail once and save all");
     bake->add_option("SCENE", options.scene, kSceneHelp)->required();
     bake->add_option("-o,--output", options.output, "The baked file")->type_name("FILE.rho")->required();
     bake->add_option("--method", options.method, "Whose octree: octree, rhview-seed or rhview")

@@ -45,6 +45,10 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
         if (!read_number(value, walk.replica_budget) ||
             !(walk.replica_budget >= 0.0 && walk.replica_budget <= 1000.0))
             return wrong("a number from 0 to 1000");
+    } else if (name == "lod-error") {
+        if (!read_number(value, walk.lod_error_px) ||
+            !(walk.lod_error_px >= 0.0 && walk.lod_error_px <= 1000.0))
+            return wrong("a number of pixels from 0 to 1000");
     } else if (name == "mode") {
         walk.mode = value;
     } else if (name == "occlusion") {
@@ -56,8 +60,7 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
     } else {
         return Error{
             fmt::format("--methods {}: there is no option '{}'; a method has leaf, replica-budget, mode, "
-                        "occlusion, hierarchy and "
-                        "submission",
+                        "occlusion, hierarchy, submission and lod-error",
                         label, name)};
     }
     return success();
