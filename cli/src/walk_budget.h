@@ -16,22 +16,23 @@ namespace rhview::cli {
 /// which share of triangles is left after clipping.
 class WalkBudget {
   public:
-    WalkBudget(double budget_ms, const TimingProfile& profile);
+    /// `residuals`: of the profile.
+    WalkBudget(double budget_ms, const std::optional<ResidualPercentiles>& residuals);
 
-    /// Sets what the objects of `plan` may cost.
-    void limit(const FramePlan& plan, LevelOptions& options);
+    /// Sets what the objects of `plan` may cost, by the constants of now.
+    void limit(const FramePlan& plan, const TimingProfile& profile, LevelOptions& options);
     /// After the levels were chosen: what the frame will take, and whether that holds the budget.
     void decide(const LevelSummary& chosen, FrameRecord& record);
-    /// After the frame was drawn; `record` is complete.
+    /// After the frame was drawn; `record` is complete. The first frame of all, which compiles shaders and
+    /// touches memory for the first time, is not counted.
     void observe(const FrameRecord& record);
 
   private:
     static constexpr double kPrimitivesPerIndex = 1.0 / 3.0;  ///< if all are left
 
     double budget_ns_;
-    TimingProfile profile_;
     FrameBudget budget_;
-    FrameRecord last_;
+    std::optional<FrameRecord> last_;
     double rest_ns_ = 0.0;  ///< of this frame, besides the objects
 };
 

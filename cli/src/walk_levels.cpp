@@ -13,11 +13,12 @@ WalkLevels::WalkLevels(const Scene& scene, std::span<const LodChain> chains, con
                        const TimingProfile* profile)
     : scene_(scene), levels_(chains, levelled_objects(scene)) {
     options_.max_error_px = options.lod_error_px;
-    if (options.budget_ms && profile != nullptr) budget_.emplace(*options.budget_ms, *profile);
+    if (options.budget_ms && profile != nullptr) budget_.emplace(*options.budget_ms, profile->residuals);
 }
 
-void WalkLevels::choose(const FrameInput& input, FramePlan& plan, FrameRecord& record) {
-    if (budget_) budget_->limit(plan, options_);
+void WalkLevels::choose(const FrameInput& input, const TimingProfile* profile, FramePlan& plan,
+                        FrameRecord& record) {
+    if (budget_ && profile != nullptr) budget_->limit(plan, *profile, options_);
     const LevelSummary chosen = levels_.choose(input, options_, plan);
     if (budget_) budget_->decide(chosen, record);
 }

@@ -21,7 +21,8 @@ class WalkLevels {
                const TimingProfile* profile);
 
     /// Of the objects of a plan that `input` was planned to.
-    void choose(const FrameInput& input, FramePlan& plan, FrameRecord& record);
+    /// `profile`: the constants of now; null where nothing is predicted.
+    void choose(const FrameInput& input, const TimingProfile* profile, FramePlan& plan, FrameRecord& record);
     /// Of all objects in the frustum, by `ObjectId`, for a method that draws as it finds.
     std::span<const std::uint8_t> choose_ahead(const FrameInput& input);
     /// The levels of what such a method drew.

@@ -384,7 +384,7 @@ class WalkSession::Impl {
     }
 
     void choose_levels(const FrameInput& input, FrameRecord& record) {
-        levels_->choose(input, plan_, record);
+        levels_->choose(input, running_ ? &running_->profile() : nullptr, plan_, record);
         levels_->count_indices(plan_, object_indices_);
     }
 
