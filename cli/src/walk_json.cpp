@@ -194,7 +194,8 @@ Json summary_json(const WalkReport& report) {
     summary["visible_instances"] =
         has_instances ? statistics(report, [](const FrameRecord& f) { return f.visible_instances; })
                       : Json(nullptr);
-    summary["lod_error_px"] = statistics(report, [](const FrameRecord& f) { return f.lod_error_px; });
+    summary["lod_error_px"] =
+        has_objects ? statistics(report, [](const FrameRecord& f) { return f.lod_error_px; }) : Json(nullptr);
     summary["budget"] = budget_json(report);
     summary["missing_pixels"] = missing_pixels_json(report);
     summary["reveal_frames"] = reveal_frames_json(report);
@@ -261,6 +262,7 @@ std::string to_json(const WalkReport& report) {
                    {"index_bytes", report.lod.index_bytes}};
     json["summary"] = summary_json(report);
     const auto counted = [&](double value) { return report.in_steps ? Json(nullptr) : Json(count(value)); };
+    const bool has_objects = report.scene.dynamic_objects > 0;
     json["per_frame"] = Json::array();
     for (const FrameRecord& f : report.frames)
         json["per_frame"].push_back({{"frame", f.frame},
@@ -273,7 +275,7 @@ std::string to_json(const WalkReport& report) {
                                      {"passed_samples", counted(f.work.passed_samples)},
                                      {"queries", count(f.work.queries)},
                                      {"occlusion", occlusion_json(f.occlusion)},
-                                     {"lod_error_px", f.lod_error_px},
+                                     {"lod_error_px", has_objects ? Json(f.lod_error_px) : Json(nullptr)},
                                      {"budget", frame_budget_json(f.budget)},
                                      {"nodes_visited", f.nodes_visited},
                                      {"cull_ms", f.cull_ms},
