@@ -134,6 +134,16 @@ void add_walk_options(CLI::App* walk, WalkOptions& options) {
                      "PSNR, SSIM")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000));
+    walk->add_option("--lod-error", options.lod_error_px,
+                     "Largest error of dynamic objects' levels of detail, in pixels; 0: full detail")
+        ->type_name("PX")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->capture_default_str();
+    walk->add_option(
+            "--budget", options.budget_ms,
+            "Frame budget: levels of detail give way to it, and each frame says whether it can be met")
+        ->type_name("MS")
+        ->check(CLI::Range(0.001, 1e6));
     walk->add_flag("--check", options.check, "Compare every frame's depth with drawing everything");
     walk->add_option("--check-every", options.check_every, "Check every N-th frame only (implies --check)")
         ->type_name("N")
@@ -167,13 +177,13 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     compare
         ->add_option("--methods", options.methods,
                      "Methods, separated by commas, each with options of its own behind colons (leaf, "
-                     "replica-budget, mode, visible-pixels, occlusion, hierarchy, submission): "
+                     "replica-budget, mode, visible-pixels, lod-error, occlusion, hierarchy, submission): "
                      "octree:leaf=4096,rhview; default: " +
                          std::string(kDefaultMethods))
         ->type_name("a,b,…");
     compare->add_flag("--pareto", options.pareto,
                       "Add rhview with everything that it may give up for speed (latent mode, visibility "
-                      "thresholds), measure the picture's error, tell the front");
+                      "thresholds, levels of detail), measure the picture's error, tell the front");
     compare
         ->add_option("--order", options.order,
                      "frame: methods take turns frame by frame; run: one walks after the other")
@@ -189,7 +199,8 @@ void add_compare(CLI::App& app, CompareOptions& options) {
 }
 
 void add_bake(CLI::App& app, BakeOptions& options) {
-    CLI::App* bake = app.add_subcommand("bake", "Build a scene's octree once and save both");
+    CLI::App* bake =
+        app.add_subcommand("bake", "Build a scene's octree and levels of detail once and save all");
     bake->add_option("SCENE", options.scene, kSceneHelp)->required();
     bake->add_option("-o,--output", options.output, "The baked file")->type_name("FILE.rho")->required();
     bake->add_option("--method", options.method, "Whose octree: octree, rhview-seed or rhview")

@@ -47,6 +47,10 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
             return wrong("a number from 0 to 1000");
     } else if (name == "visible-pixels") {
         if (!read_number(value, walk.visible_pixels)) return wrong("a whole number of pixels");
+    } else if (name == "lod-error") {
+        if (!read_number(value, walk.lod_error_px) ||
+            !(walk.lod_error_px >= 0.0 && walk.lod_error_px <= 1000.0))
+            return wrong("a number of pixels from 0 to 1000");
     } else if (name == "mode") {
         walk.mode = value;
     } else if (name == "occlusion") {
@@ -60,7 +64,7 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
     } else {
         return Error{
             fmt::format("--methods {}: there is no option '{}'; a method has leaf, replica-budget, mode, "
-                        "visible-pixels, occlusion, hierarchy, submission and the keys of --tune",
+                        "visible-pixels, occlusion, hierarchy, submission, lod-error and the keys of --tune",
                         label, name)};
     }
     return success();

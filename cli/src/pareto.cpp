@@ -15,7 +15,9 @@
 namespace rhview::cli {
 namespace {
 
-constexpr std::array kVisiblePixels{4, 16, 64};
+constexpr std::array kModes{"exact", "latent", "latent:visible-pixels=4", "latent:visible-pixels=16",
+                            "latent:visible-pixels=64"};
+constexpr std::array kLodErrors{"0", "0.5", "1", "2", "4", "8"};
 
 double or_worst(double value) {
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
@@ -23,11 +25,14 @@ double or_worst(double value) {
 
 }  // namespace
 
-std::string pareto_methods() {
-    std::string list = "rhview:mode=exact,rhview:mode=latent";
-    for (const int pixels : kVisiblePixels)
-        list += fmt::format(",rhview:mode=latent:visible-pixels={}", pixels);
-    return list;
+std::string pareto_methods(bool levels) {
+    std::vector<std::string> methods;
+    for (const char* mode : kModes) {
+        if (!levels) methods.push_back(fmt::format("rhview:mode={}", mode));
+        for (const char* error : kLodErrors)
+            if (levels) methods.push_back(fmt::format("rhview:mode={}:lod-error={}", mode, error));
+    }
+    return fmt::format("{}", fmt::join(methods, ","));
 }
 
 std::vector<std::size_t> pareto_front(std::span<const double> costs, std::span<const double> errors) {

@@ -11,8 +11,9 @@
 namespace rhview::cli {
 
 /// What `compare --pareto` walks, as a list for `parse_methods`: `rhview` in exact mode, in latent mode, and
-/// in latent mode with each visibility threshold.
-std::string pareto_methods();
+/// in latent mode with each visibility threshold (4, 16, 64 pixels); with `levels` of detail, each of them
+/// with each bound of their error (0, 0.5, 1, 2, 4, 8 pixels).
+std::string pareto_methods(bool levels);
 
 /// The choices to which no other one is better in cost or error and as good in the other, by ascending error,
 /// then cost, then number. Of choices equal in both, all. NaN is worse than anything. Spans of one length.

@@ -52,6 +52,8 @@ struct WalkOptions {
     std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
     double replica_budget = 1.0;
     InstancesWanted instances;
+    double lod_error_px = 1.0;
+    std::optional<double> budget_ms;
     bool check = false;
     int check_every = 1;
     bool visible_set = false;

@@ -9,6 +9,7 @@
 #include <array>
 
 #include "instances.h"
+#include "level_chains.h"
 #include "method.h"
 #include "rhview/gl/timer.h"
 
@@ -54,6 +55,9 @@ Status check_options(const WalkOptions& options) {
                                  options.occlusion, options.method)};
     if (options.submission != "plain" && options.submission != "multi")
         return Error{fmt::format("--submission {}: unknown; write plain or multi", options.submission)};
+    if (options.budget_ms && interactive)
+        return Error{
+            fmt::format("--budget: {} draws as it finds, and plans no frame; leave it out", options.method)};
     return check_instances(options.instances);
 }
 
@@ -65,6 +69,23 @@ Result<LoadedScene> load(const WalkOptions& options) {
             "another --leaf",
             *options.leaf, options.scene, loaded->baked->octree.options.max_leaf_triangles)};
     return loaded;
+}
+
+/// A baked file's, else built.
+Status add_chains(const WalkOptions& options, WalkGround& ground, Progress& progress) {
+    const bool wanted = options.lod_error_px > 0.0 || options.budget_ms;
+    if (!wanted || ground.loaded.scene.dynamic_objects.empty()) return success();
+    std::optional<BakedParts>& baked = ground.loaded.baked;
+    if (baked && baked->chains) {
+        ground.chains = std::move(*baked->chains);
+        return success();
+    }
+    const gl::WallTimer timer;
+    Result<std::vector<LodChain>> chains = build_chains(ground.loaded.scene, progress);
+    if (!chains) return chains.error();
+    ground.chains = std::move(chains).value();
+    ground.chains_ms = timer.elapsed_ms();
+    return success();
 }
 
 }  // namespace
@@ -98,12 +119,16 @@ Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes,
         !status)
         return status.error();
     const double settle_ms = timer.elapsed_ms();
-    return WalkGround{std::move(context).value(),
+    WalkGround ground{std::move(context).value(),
                       std::move(loaded).value(),
                       std::move(wishes.constants),
                       std::move(chosen).value(),
                       wishes.size,
-                      settle_ms};
+                      settle_ms,
+                      {},
+                      {}};
+    if (Status status = add_chains(options, ground, progress); !status) return status.error();
+    return ground;
 }
 
 }  // namespace rhview::cli

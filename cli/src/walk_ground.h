@@ -22,7 +22,9 @@ struct WalkGround {
     WantedConstants wanted;
     ChosenConstants chosen;
     PictureSize size;
-    double settle_ms = 0.0;  ///< to choose and flatten instances
+    double settle_ms = 0.0;           ///< to choose and flatten instances
+    std::vector<LodChain> chains;     ///< levels of detail by mesh; empty: nobody wants any, or nothing moves
+    std::optional<double> chains_ms;  ///< to build those; absent: they were not built
     std::unique_ptr<ReferenceFrame> reference = std::make_unique<ReferenceFrame>();  ///< the last one drawn
 };
 

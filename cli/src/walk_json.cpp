@@ -174,6 +174,19 @@ Json answer_costs_json(const std::optional<QueryCosts>& costs) {
     return {{"hardware_query", way(costs->hardware)}, {"box_pass", way(costs->box_pass)}};
 }
 
+Json budget_json(const WalkReport& report) {
+    if (!report.lod.budget_ms) return nullptr;
+    return {{"can_be_met_frames", report.frames_within_reach()},
+            {"met_of_those", report.frames_within_budget()}};
+}
+
+Json frame_budget_json(const std::optional<BudgetRecord>& budget) {
+    if (!budget) return nullptr;
+    return {{"predicted_ms", budget->predicted_ms},
+            {"margin", budget->margin},
+            {"can_be_met", budget->can_be_met}};
+}
+
 Json summary_json(const WalkReport& report) {
     const bool has_gpu = !report.frames.empty() && report.frames.front().gpu_ms.has_value();
     const bool has_objects = report.scene.dynamic_objects > 0;
@@ -208,7 +221,9 @@ Json summary_json(const WalkReport& report) {
     summary["visible_instances"] =
         has_instances ? statistics(report, [](const FrameRecord& f) { return f.visible_instances; })
                       : Json(nullptr);
-    summary["lod_error_px"] = nullptr;
+    summary["lod_error_px"] =
+        has_objects ? statistics(report, [](const FrameRecord& f) { return f.lod_error_px; }) : Json(nullptr);
+    summary["budget"] = budget_json(report);
     summary["missing_pixels"] = missing_pixels_json(report);
     summary["image_error"] = image_error_json(report.image_error());
     summary["reveal_frames"] = reveal_frames_json(report);
@@ -271,8 +286,14 @@ std::string to_json(const WalkReport& report) {
                      {"replica_bytes", report.build.replica_bytes},
                      {"index_bytes", report.build.index_bytes},
                      {"vertex_bytes", report.build.vertex_bytes}};
+    json["lod"] = {{"error_bound_px", report.lod.error_bound_px},
+                   {"budget_ms", or_null(report.lod.budget_ms)},
+                   {"build_ms", or_null(report.lod.build_ms)},
+                   {"levels", report.lod.levels},
+                   {"index_bytes", report.lod.index_bytes}};
     json["summary"] = summary_json(report);
     const auto counted = [&](double value) { return report.in_steps ? Json(nullptr) : Json(count(value)); };
+    const bool has_objects = report.scene.dynamic_objects > 0;
     json["per_frame"] = Json::array();
     for (const FrameRecord& f : report.frames)
         json["per_frame"].push_back({{"frame", f.frame},
@@ -285,6 +306,8 @@ std::string to_json(const WalkReport& report) {
                                      {"passed_samples", counted(f.work.passed_samples)},
                                      {"queries", count(f.work.queries)},
                                      {"occlusion", occlusion_json(report, f.occlusion)},
+                                     {"lod_error_px", has_objects ? Json(f.lod_error_px) : Json(nullptr)},
+                                     {"budget", frame_budget_json(f.budget)},
                                      {"nodes_visited", f.nodes_visited},
                                      {"cull_ms", f.cull_ms},
                                      {"frame_ms", f.frame_ms},

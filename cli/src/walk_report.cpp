@@ -50,6 +50,13 @@ std::string timing_line(const WalkReport& report) {
         constants.c3_ns + constants.sub_draw_ns.value_or(0.0), report.profile->told);
 }
 
+std::string lod_line(const WalkReport& report) {
+    if (!report.lod.budget_ms) return "";
+    return fmt::format("  budget {} ms: the model says that {} of {} frames can hold it; {} of those did\n",
+                       *report.lod.budget_ms, report.frames_within_reach(), report.frames.size(),
+                       report.frames_within_budget());
+}
+
 std::string method_line(const WalkReport& report) {
     if (report.in_steps) return report.method;
     if (!report.has_occlusion()) return report.method + (report.occlusion == "off" ? " without queries" : "");
@@ -68,6 +75,17 @@ bool WalkReport::has_occlusion() const {
 int WalkReport::checked_frames() const {
     return static_cast<int>(
         std::ranges::count_if(frames, [](const FrameRecord& f) { return f.missing_pixels.has_value(); }));
+}
+
+int WalkReport::frames_within_reach() const {
+    return static_cast<int>(
+        std::ranges::count_if(frames, [](const FrameRecord& f) { return f.budget && f.budget->can_be_met; }));
+}
+
+int WalkReport::frames_within_budget() const {
+    return static_cast<int>(std::ranges::count_if(frames, [&](const FrameRecord& f) {
+        return f.budget && f.budget->can_be_met && f.frame_ms <= lod.budget_ms.value_or(0.0);
+    }));
 }
 
 std::uint64_t WalkReport::missing_pixels() const {
@@ -119,14 +137,18 @@ std::string instancing_text(const InstancingReport& report) {
 std::string to_csv(const WalkReport& report) {
     std::string csv =
         "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels,predicted_"
-        "ms,queries\n";
+        "ms,queries,lod_error_px,budget_can_be_met\n";
     for (const FrameRecord& f : report.frames) {
-        csv +=
-            fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{},{}\n", f.frame, count(f.work.draw_calls),
-                        count(f.work.sub_draws), count(f.work.indices), f.nodes_visited, f.cull_ms,
-                        f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
-                        f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
-                        f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "", count(f.work.queries));
+        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{},{},{:.4f},{}\n", f.frame,
+                           count(f.work.draw_calls), count(f.work.sub_draws), count(f.work.indices),
+                           f.nodes_visited, f.cull_ms, f.frame_ms,
+                           f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
+                           f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
+                           f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "",
+                           count(f.work.queries), f.lod_error_px,
+                           !f.budget              ? ""
+                           : f.budget->can_be_met ? "1"
+                                                  : "0");
     }
     return csv;
 }
@@ -188,6 +210,7 @@ std::string to_table(const WalkReport& report) {
     row("nodes visited", 0, [](const FrameRecord& f) { return f.nodes_visited; });
     if (report.scene.dynamic_objects > 0)
         row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
+    if (report.lod.levels > 0) row("LoD error, px", 2, [](const FrameRecord& f) { return f.lod_error_px; });
     if (report.scene.static_instances > 0)
         row("instances", 1, [](const FrameRecord& f) { return f.visible_instances; });
     row("cull ms", 3, [](const FrameRecord& f) { return f.cull_ms; });
@@ -201,6 +224,7 @@ std::string to_table(const WalkReport& report) {
                     report.scene.batches + report.scene.object_groups,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
     table += timing_line(report);
+    table += lod_line(report);
     if (report.has_occlusion())
         table += fmt::format("  occlusion: {} answers waited for, {} lost\n", report.blocking_reads,
                              report.lost_queries);

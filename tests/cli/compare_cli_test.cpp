@@ -133,6 +133,28 @@ TEST_F(Compare, pareto_walks_every_choice_and_its_fronts_hold_what_nothing_beats
     }
 }
 
+TEST_F(Compare, pareto_walks_each_bound_of_the_levels_errors_where_things_move) {
+    const nlohmann::json compared = compare_json(
+        "compare swarm:objects=40,mesh=8000 --frames 6 --warmup 1 --size 160x90 --set "
+        "c1=1,c3=500,query=2000 "
+        "--pareto");
+    ASSERT_EQ(compared["runs"].size(), 30u);
+    EXPECT_EQ(compared["reference"], "rhview:mode=exact:lod-error=0");
+    std::vector<double> indices, loss;
+    for (std::size_t i = 0; i < 6; ++i) {
+        const nlohmann::json& summary = compared["runs"][i]["summary"];
+        indices.push_back(summary["indices"]["mean"]);
+        loss.push_back(1.0 - summary["image_error"]["ssim"].get<double>());
+    }
+    EXPECT_EQ(compared["runs"][5]["label"], "rhview:mode=exact:lod-error=8");
+    EXPECT_EQ(compared["runs"][29]["label"], "rhview:mode=latent:visible-pixels=64:lod-error=8");
+    EXPECT_EQ(compared["runs"][0]["summary"]["image_error"]["missing_pixels"], 0);
+    EXPECT_NEAR(loss[0], 0.0, 1e-12);
+    EXPECT_GT(loss[5], loss[1]);
+    for (std::size_t i = 1; i < 6; ++i) EXPECT_LE(indices[i], indices[i - 1]) << i;
+    EXPECT_LT(indices[5], 0.9 * indices[0]);
+}
+
 TEST_F(Compare, each_method_has_its_own_parameters) {
     const nlohmann::json compared = compare_json(
         "compare spheres:spheres=1200,moving=60,sides=8 --frames 12 --warmup 1 --size 160x90 --check --set "
