@@ -89,7 +89,7 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
     }
     if (method == "grid") {
         const gl::WallTimer timer;
-        prepared.planner = make_grid_method(scene, options.frame_seconds);
+        prepared.planner = make_grid_method(scene, options.rival.grid_cells, options.frame_seconds);
         prepared.build_ms = timer.elapsed_ms();
         return prepared;
     }

@@ -4,9 +4,11 @@
 #include "plan_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
 #include <vector>
 
 namespace rhview::cli {
@@ -26,6 +28,15 @@ glm::vec3 call_colour(std::size_t call, bool replica) {
     const auto t = static_cast<float>(turn - std::floor(turn));
     return replica ? glm::mix(glm::vec3(0.05f, 0.75f, 0.45f), glm::vec3(0.05f, 0.35f, 1.0f), t)
                    : glm::mix(glm::vec3(1.0f, 0.80f, 0.10f), glm::vec3(0.95f, 0.15f, 0.05f), t);
+}
+
+/// Finest red, coarser over yellow, green and blue to violet.
+glm::vec3 level_colour(std::uint8_t level) {
+    constexpr std::array kLevels{glm::vec3(0.95f, 0.15f, 0.10f), glm::vec3(1.0f, 0.55f, 0.05f),
+                                 glm::vec3(0.95f, 0.85f, 0.10f), glm::vec3(0.35f, 0.80f, 0.20f),
+                                 glm::vec3(0.10f, 0.70f, 0.70f), glm::vec3(0.15f, 0.35f, 0.95f),
+                                 glm::vec3(0.55f, 0.15f, 0.80f)};
+    return kLevels[std::min<std::size_t>(level, kLevels.size() - 1)];
 }
 
 /// The parts of `drawn`, which is one range of the base order, that `to_show` (by first index) doesn't hold.
@@ -94,19 +105,20 @@ void PlanPicture::draw_conditional(const PicturedPlan& pictured, const View& fro
     }
 }
 
+/// A call per level, each in its colour.
 void PlanPicture::draw_objects(const PicturedPlan& pictured, const View& from, gl::Executor& executor) const {
-    FramePlan objects;
-    for (std::size_t i = 0; i < pictured.plan.objects.size(); ++i) {
-        objects.objects.push_back(pictured.plan.objects[i]);
-        objects.object_levels.push_back(pictured.plan.level_of_object(i));
-    }
-    for (const ConditionalObject& object : pictured.plan.conditional_objects) {
-        if (is_hidden(pictured, object.query)) continue;
-        objects.objects.push_back(object.object);
-        objects.object_levels.push_back(object.level);
-    }
-    executor.draw(objects, pictured.buffers, from,
-                  {gl::Submission::Plain, call_colour(0, false), nullptr, pictured.placements});
+    std::map<std::uint8_t, FramePlan> by_level;
+    const auto add = [&](ObjectId object, std::uint8_t level) {
+        by_level[level].objects.push_back(object);
+        by_level[level].object_levels.push_back(level);
+    };
+    for (std::size_t i = 0; i < pictured.plan.objects.size(); ++i)
+        add(pictured.plan.objects[i], pictured.plan.level_of_object(i));
+    for (const ConditionalObject& object : pictured.plan.conditional_objects)
+        if (!is_hidden(pictured, object.query)) add(object.object, object.level);
+    for (const auto& [level, objects] : by_level)
+        executor.draw(objects, pictured.buffers, from,
+                      {gl::Submission::Plain, level_colour(level), nullptr, pictured.placements});
 }
 
 void PlanPicture::draw_boxes(const PicturedPlan& pictured, const View& from) {

@@ -36,7 +36,8 @@ struct PlanMarks {
 
 /// What a plan draws, in false colours: each draw call in one of its own (from the base order yellow to red,
 /// from replicas blue to green), bridged gaps violet, the rest grey; boxes that were asked about blue where
-/// nothing was seen, green where something was; chosen nodes blue; the frustum red.
+/// nothing was seen, green where something was; chosen nodes blue; the frustum red. Objects by level of
+/// detail, the finest red, coarser ones over yellow, green and blue to violet.
 class PlanPicture {
   public:
     static Result<PlanPicture> create();

@@ -35,6 +35,8 @@ constexpr std::array kWords{
     Word{"submission", ViewVerb::Submission, Arguments::Text, "submission multi"},
     Word{"c1", ViewVerb::IndexPrice, Arguments::Price, "c1 0.25"},
     Word{"c3", ViewVerb::DrawPrice, Arguments::Price, "c3 2000"},
+    Word{"lod-error", ViewVerb::LodError, Arguments::Price, "lod-error 2"},
+    Word{"budget", ViewVerb::Budget, Arguments::Price, "budget 16.6"},
     Word{"rebuild", ViewVerb::Rebuild, Arguments::None, "rebuild"},
     Word{"freeze", ViewVerb::Freeze, Arguments::Switch, "freeze on"},
     Word{"outside", ViewVerb::Outside, Arguments::None, "outside"},

@@ -25,6 +25,8 @@ enum class ViewVerb {
     Submission,
     IndexPrice,  ///< c1 becomes `x` ns
     DrawPrice,   ///< c3 becomes `x` ns
+    LodError,    ///< levels of detail may be `x` pixels off
+    Budget,      ///< a frame may take `x` ms; 0: as long as it takes
     Rebuild,     ///< the octree, for the prices
     Freeze,      ///< the culling camera; `on`
     Outside,     ///< look at the frozen camera from outside

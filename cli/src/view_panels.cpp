@@ -83,6 +83,16 @@ void make_price_panel(const ViewSession& session, Commands& commands) {
     if (ImGui::SmallButton("build again")) tell(commands, ViewVerb::Rebuild);
 }
 
+/// Of scenes that have levels.
+void make_level_panel(const ViewSession& session, Commands& commands) {
+    if (session.ground().chains.empty()) return;
+    make_price("LoD error, px", session.options().lod_error_px, 0.01f, 64.0f, ViewVerb::LodError, commands);
+    auto budget = static_cast<float>(session.options().budget_ms.value_or(0.0));
+    if (ImGui::SliderFloat("budget, ms", &budget, 0.0f, 200.0f, budget > 0.0f ? "%.1f" : "none"))
+        tell(commands, ViewVerb::Budget, {}, static_cast<double>(budget));
+    ImGui::Separator();
+}
+
 void make_camera_panel(ViewSession& session, Commands& commands) {
     if (ImGui::Button(session.is_frozen() ? "let go (F)" : "freeze (F)")) tell(commands, ViewVerb::Freeze);
     ImGui::SameLine();
@@ -162,6 +172,9 @@ void make_plots(const ViewSession& session) {
     plot(
         "queries", "", frames, [](const FrameRecord& f) { return Value(f.work.queries); }, nothing);
     const FrameRecord& last = frames.back();
+    if (!session.ground().chains.empty())
+        ImGui::Text("%llu objects, levels off by %.2f px at most",
+                    static_cast<unsigned long long>(last.visible_objects), last.lod_error_px);
     if (last.occlusion)
         ImGui::Text("%llu boxes, %llu queries saw nothing",
                     static_cast<unsigned long long>(last.occlusion->boxes),
@@ -185,6 +198,8 @@ void make_legend(const ViewSession& session) {
         LegendEntry{IM_COL32(0, 158, 51, 255), "asked about: seen"},
         LegendEntry{IM_COL32(217, 0, 64, 255), "frustum of the frozen camera"},
     };
+    if (!session.ground().chains.empty())
+        ImGui::TextUnformatted("objects by level: finest red, coarser to violet");
     for (const LegendEntry& entry : entries) {
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         const float side = ImGui::GetTextLineHeight();
@@ -219,6 +234,7 @@ void make_panels(ViewSession& session, Commands& commands) {
     ImGui::Separator();
     make_price_panel(session, commands);
     ImGui::Separator();
+    make_level_panel(session, commands);
     make_camera_panel(session, commands);
     make_legend(session);
     if (ImGui::CollapsingHeader("keys")) make_keys();

@@ -128,6 +128,8 @@ std::string ViewSession::walk_command(const std::filesystem::path& path, int fra
     if (o.replica_budget != 1.0) command += fmt::format(" --replica-budget {}", o.replica_budget);
     add("--instances", o.instances.policy, "auto");
     if (o.instances.budget_mib) command += fmt::format(" --instance-budget {}", *o.instances.budget_mib);
+    if (o.lod_error_px != 1.0) command += fmt::format(" --lod-error {}", o.lod_error_px);
+    if (o.budget_ms) command += fmt::format(" --budget {}", *o.budget_ms);
     if (profile) command += " --profile " + quoted(profile->string());
     add("--set", set_option(stage_->ground.wanted), "");
     return command;

@@ -145,6 +145,12 @@ Status ViewSession::run(const ViewCommand& command) {
             return set_price("c1", command.x);
         case ViewVerb::DrawPrice:
             return set_price("c3", command.x);
+        case ViewVerb::LodError:
+            wanted.lod_error_px = command.x;
+            return change(wanted);
+        case ViewVerb::Budget:
+            wanted.budget_ms = command.x > 0.0 ? std::optional(command.x) : std::nullopt;
+            return change(wanted);
         case ViewVerb::Rebuild:
             return build(*stage_);
         case ViewVerb::Freeze:

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "frame_pictures.h"
+#include "level_chains.h"
 #include "method.h"
 #include "occlusion_choice.h"
 #include "reveal_delays.h"
@@ -20,6 +21,7 @@
 #include "rhview/scenes/object_motion.h"
 #include "rhview/timing_model/running_update.h"
 #include "statistics.h"
+#include "walk_levels.h"
 
 namespace rhview::cli {
 namespace {
@@ -69,9 +71,17 @@ WalkReport describe(const WalkOptions& options, const WalkGround& ground, const 
     report.build.vertex_bytes = scene.vertex_bytes();
     report.method = options.method;
     report.mode = options.mode;
+    report.visible_pixels = options.visible_pixels;
     report.submission = options.submission;
     report.occlusion = options.occlusion;
     report.leaf = method.max_leaf_triangles;
+    report.lod.error_bound_px = options.lod_error_px;
+    report.lod.budget_ms = options.budget_ms;
+    report.lod.build_ms = ground.chains_ms;
+    for (const LodChain& chain : ground.chains) {
+        report.lod.levels += chain.levels.size() - 1;
+        report.lod.index_bytes += chain.indices.span().size_bytes();
+    }
     if (ground.loaded.baked)
         report.build.load_ms = ground.loaded.baked->load_ms;
     else
@@ -108,13 +118,17 @@ class WalkSession::Impl {
     Status set_up() {
         if (Status status = prepare(); !status) return status;
         report_.plan_hash = plan_hash({});
-        if (constants_) running_.emplace(constants_->profile);
         if (Status status = set_up_device(); !status) return status;
-        make_movers();
+        begin();
         return success();
     }
 
-    FrameRecord draw(const FrameCameras& cameras) { return draw_once(0, cameras); }
+    FrameRecord draw(const FrameCameras& cameras) {
+        FrameRecord record = draw_once(0, cameras);
+        if (levels_) levels_->observe(record);
+        learn(record);
+        return record;
+    }
 
     Status restart() {
         Result<MethodOptions> method_options = choose_method_options();
@@ -125,7 +139,7 @@ class WalkSession::Impl {
             return status;
         answers_.clear();
         plan_.clear();
-        make_movers();
+        begin();
         return success();
     }
 
@@ -143,7 +157,8 @@ class WalkSession::Impl {
 
     PicturedPlan pictured(const View& culling, double time_s) {
         place_objects(scene_, time_s, placements_);
-        reference_->plan(input_for(culling), everything_);
+        if (levels_) all_levels_ = levels_->complete(input_for(culling), plan_);
+        plan_everything(culling);
         return describe_plan(culling);
     }
 
@@ -155,22 +170,18 @@ class WalkSession::Impl {
 
     Status walk(int frame) {
         FrameRecord record = draw_frame(frame);
-        if (running_ && record.predicted_ms) {
-            // Queries are priced apart, by what they asked about.
-            const double query_ms = record.occlusion ? record.occlusion->query_ms : 0.0;
-            const Work draws = without_queries(record.work);
-            record.running_predicted_ms = 1e-6 * running_->predict_ns(draws) + query_ms;
-            if (record.frame_ms > query_ms) running_->observe({draws, 1e6 * (record.frame_ms - query_ms)});
-        }
+        learn(record);
         report_.plan_hash = plan_hash(plan_, report_.plan_hash);
-        if (options_.visible_set)
-            place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        if (options_.visible_set) place_all(frame);
         if (options_.visible_set) record.visible_set_indices = visible_set_indices(frame);
         const bool checked = options_.check && frame % options_.check_every == 0;
         const bool pictured = options_.images && frame % options_.images_every == 0;
+        const bool measured = options_.image_error_every > 0 && frame % options_.image_error_every == 0;
+        if (measured) keep_picture();
         if (checked || pictured)
             if (Status status = compare_with_everything(frame, checked, pictured, record); !status)
                 return status;
+        if (measured) record.image_error = image_error(frame);
         report_.frames.push_back(record);
         return success();
     }
@@ -186,8 +197,31 @@ class WalkSession::Impl {
     [[nodiscard]] const WalkReport& report() const { return report_; }
 
   private:
+    /// As before the first frame.
+    void begin() {
+        make_movers();
+        levels_.reset();
+        if (!ground_.chains.empty() && (options_.lod_error_px > 0.0 || options_.budget_ms))
+            levels_.emplace(scene_, ground_.chains, options_, constants_ ? &constants_->profile : nullptr);
+        running_.reset();
+        if (constants_) running_.emplace(constants_->profile);
+    }
+
+    /// Constants follow the frames; the frame keeps what they foretold.
+    void learn(FrameRecord& record) {
+        if (running_ && record.predicted_ms) {
+            // Queries are priced apart, by what they asked about.
+            const double query_ms = record.occlusion ? record.occlusion->query_ms : 0.0;
+            const Work draws = without_queries(record.work);
+            record.running_predicted_ms = 1e-6 * running_->predict_ns(draws) + query_ms;
+            if (record.frame_ms > query_ms) running_->observe({draws, 1e6 * (record.frame_ms - query_ms)});
+        }
+    }
+
     /// What the method is built and planned with, and why it asks nothing where it was to ask.
     Result<MethodOptions> choose_method_options() {
+        if (options_.budget_ms && !constants_)
+            return Error{fmt::format("--budget: needs timing constants, and {}", ground_.chosen.why_not)};
         Result<RivalOptions> rival = parse_rival(options_.hierarchy, options_.tune);
         if (!rival) return rival.error();
         MethodOptions method_options{
@@ -258,7 +292,9 @@ class WalkSession::Impl {
             if (!stepped) return stepped.error();
             stepped_.emplace(std::move(stepped).value());
         }
-        Result<gl::SceneBuffers> buffers = gl::SceneBuffers::upload(scene_, method_.static_indices());
+        const ChainRanges ranges(ground_.chains);
+        Result<gl::SceneBuffers> buffers =
+            gl::SceneBuffers::upload(scene_, method_.static_indices(), ranges.meshes());
         if (!buffers) return buffers.error();
         buffers_.emplace(std::move(buffers).value());
         const Result<gl::TimerCheck> timer = gl::check_gpu_timer();
@@ -297,19 +333,22 @@ class WalkSession::Impl {
 
     /// The same of a method that draws and asks in turns. What only the device counts is not counted:
     /// OpenGL knows one occlusion query at a time.
-    FrameRecord draw_in_steps(int frame, const FrameCameras& cameras, const gl::DrawOptions& draw) {
+    FrameRecord draw_in_steps(int frame, const FrameCameras& cameras, gl::DrawOptions draw) {
         place_objects(scene_, cameras.time_s, placements_);
         const FrameInput input = input_for(cameras.culling);
         FrameRecord record;
         record.frame = frame;
         const std::uint64_t waits = stepped_->answer_counters().blocking_reads;
         const gl::WallTimer timer;
+        if (levels_) draw.object_levels = levels_->choose_ahead(input);
+        const double chosen_ms = timer.elapsed_ms();
         if (gpu_timer_) gpu_timer_->begin();
         stepped_->begin(*buffers_, cameras.render, draw);
         const gl::WallTimer method_timer;
         const double begun_ms = stepped_->device_ms();
         method_.rival->method->draw(input, *stepped_, drawn_);
-        record.cull_ms = std::max(method_timer.elapsed_ms() - (stepped_->device_ms() - begun_ms), 0.0);
+        record.cull_ms =
+            chosen_ms + std::max(method_timer.elapsed_ms() - (stepped_->device_ms() - begun_ms), 0.0);
         const gl::FrameCounters counters = stepped_->end();
         if (gpu_timer_) gpu_timer_->end();
         gl::finish();
@@ -319,6 +358,8 @@ class WalkSession::Impl {
         record.work.queries = static_cast<double>(counters.queries);
         std::swap(plan_, drawn_.plan);
         answers_.swap(drawn_.answers);
+        if (levels_) levels_->name_levels(plan_);
+        if (levels_) record.lod_error_px = levels_->error_px(plan_, answers_);
         record.nodes_visited = plan_.nodes_visited;
         for (const ObjectId id : plan_.objects) count_object(id, record);
         OcclusionRecord& o = record.occlusion.emplace();
@@ -388,6 +429,7 @@ class WalkSession::Impl {
         const double moved_ms = timer.elapsed_ms();
         method_.planner->absorb(answers_);
         method_.planner->plan(input, plan_);
+        if (levels_) choose_levels(input, record);
         record.cull_ms = timer.elapsed_ms() - moved_ms;
         if (movers_) place_planned(cameras.time_s);
         if (gpu_timer_) gpu_timer_->begin();
@@ -404,12 +446,18 @@ class WalkSession::Impl {
         work_counter_->read(record.work);
         record.nodes_visited = plan_.nodes_visited;
         for (const ObjectId id : plan_.objects) count_object(id, record);
+        if (levels_) record.lod_error_px = levels_->error_px(plan_, answers_);
         if (plan_.occlusion) count_occlusion(counters, record);
         if (constants_) {
             record.predicted_ms = 1e-6 * constants_->profile.predict_ns(without_queries(record.work));
             if (record.occlusion) *record.predicted_ms += record.occlusion->query_ms;
         }
         return record;
+    }
+
+    void choose_levels(const FrameInput& input, FrameRecord& record) {
+        levels_->choose(input, running_ ? &running_->profile() : nullptr, plan_, record);
+        levels_->count_indices(plan_, object_indices_);
     }
 
     void count_object(ObjectId id, FrameRecord& record) const {
@@ -460,6 +508,7 @@ class WalkSession::Impl {
         record.frame_ms = summarise(frame_ms).median;
         record.cull_ms = summarise(cull_ms).median;
         if (record.gpu_ms) record.gpu_ms = summarise(gpu_ms).median;
+        if (levels_) levels_->observe(record);
         return record;
     }
 
@@ -472,12 +521,26 @@ class WalkSession::Impl {
         std::ranges::stable_sort(leaves_, {}, [](const gl::ItemRange& leaf) { return leaf.range.batch; });
     }
 
+    /// For comparisons: every object, drawn or not, where it is and as it would be drawn.
+    void place_all(int frame) {
+        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        if (levels_) all_levels_ = levels_->complete(input_for(culling_view_of(frame)), plan_);
+    }
+
     [[nodiscard]] std::uint64_t visible_set_indices(int frame) {
         std::uint64_t indices = 0;
-        for (const std::uint32_t leaf :
-             items_->visible_items(leaves_, *buffers_, view_of(frame), placements_.scene_from_mesh))
+        for (const std::uint32_t leaf : items_->visible_items(leaves_, *buffers_, view_of(frame),
+                                                              placements_.scene_from_mesh, all_levels_))
             indices += 3 * std::uint64_t{method_.octree->node(NodeId{leaf}).triangle_count};
         return indices;
+    }
+
+    /// At the levels of the last comparison.
+    void plan_everything(const View& view) {
+        reference_->plan(input_for(view), everything_);
+        if (levels_)
+            for (const ObjectId object : everything_.objects)
+                everything_.object_levels.push_back(all_levels_[index_of(object)]);
     }
 
     /// Valid until the next frame; all objects are placed.
@@ -500,11 +563,11 @@ class WalkSession::Impl {
     /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
     Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
         const View view = view_of(frame);
-        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        place_all(frame);
         target_->read_depth(culled_depths_);
         std::optional<gl::Picture> culled;
         if (pictured) culled.emplace(target_->read_colour());
-        reference_->plan(input_for(view), everything_);
+        plan_everything(view);
         gl::DrawOptions draw;
         draw.placements = placements_.scene_from_mesh;
         target_->begin(clip_depth_, kSky);
@@ -515,7 +578,7 @@ class WalkSession::Impl {
         if (checked && delays_)
             record.late_items = delays_->add_frame(
                 items_->item_pixels(leaves_, static_cast<std::uint32_t>(method_.octree->nodes().size()),
-                                    *buffers_, view, placements_.scene_from_mesh),
+                                    *buffers_, view, placements_.scene_from_mesh, all_levels_),
                 culled_depths_, reference_depths_);
         if (!pictured) return success();
 
@@ -535,6 +598,30 @@ class WalkSession::Impl {
             .save_png(*options_.images / fmt::format("frame_{:04}.png", frame));
     }
 
+    /// Before anything else is drawn into the target.
+    void keep_picture() {
+        kept_.emplace(target_->read_colour());
+        target_->read_depth(kept_depths_);
+    }
+
+    /// Of the picture kept, against everything at full detail.
+    [[nodiscard]] gl::ImageDifference image_error(int frame) {
+        ReferenceFrame& reference = *ground_.reference;
+        const View view = view_of(frame);
+        if (reference.frame != frame) {
+            place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+            reference_->plan(input_for(view), everything_);
+            gl::DrawOptions draw;
+            draw.placements = placements_.scene_from_mesh;
+            target_->begin(clip_depth_, kSky);
+            executor_->draw(everything_, *buffers_, view, draw);
+            reference.colour.emplace(target_->read_colour());
+            target_->read_depth(reference.depths);
+            reference.frame = frame;
+        }
+        return gl::image_difference(*kept_, kept_depths_, *reference.colour, reference.depths, view);
+    }
+
     const WalkOptions& options_;
     const WalkGround& ground_;
     const std::optional<UserConstants>& constants_;
@@ -550,6 +637,8 @@ class WalkSession::Impl {
     std::vector<std::uint32_t> object_groups_;
     ObjectPlacements placements_;  ///< of the frame; with `movers_`, of what was last drawn or compared
     std::optional<MovingObjects> movers_;
+    std::optional<WalkLevels> levels_;
+    std::span<const std::uint8_t> all_levels_;  ///< of the last comparison
     std::optional<gl::RenderTarget> target_;
     std::optional<gl::Executor> executor_;
     std::optional<gl::SteppedExecutor> stepped_;  ///< of a method that draws and asks in turns
@@ -568,6 +657,8 @@ class WalkSession::Impl {
     std::string why_no_occlusion_;
     std::vector<float> culled_depths_;
     std::vector<float> reference_depths_;
+    std::optional<gl::Picture> kept_;  ///< the culled frame, where its error is measured
+    std::vector<float> kept_depths_;
 };
 
 WalkSession::WalkSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -244,6 +244,20 @@ TEST_F(View, switches_method_mode_and_scene_while_it_runs) {
         EXPECT_NE(output.find(told), std::string::npos) << told << " in\n" << output;
 }
 
+TEST_F(View, shows_levels_of_detail_by_colour_and_records_their_bound) {
+    const std::string output =
+        output_of("crowd:objects=300 --size 960x600 --set c1=5,c3=200",
+                  "panels off\nlod-error 0.01\ncolours on\nframes 2\nscreenshot fine.png\ntell\n"
+                  "lod-error 16\nframes 2\nscreenshot coarse.png\ntell\nrecord fly.json\n"
+                  "hold W 6\nstop\n");
+    EXPECT_GT(difference(image("fine.png"), image("coarse.png"), kAll), 0.002);
+    const auto indices = [](const std::string& told) { return std::stol(word_after(told, "draw calls, ")); };
+    EXPECT_GT(indices(output), indices(output.substr(output.rfind("draw calls") - 1)));
+    const nlohmann::json walk = walk_again(output);
+    EXPECT_EQ(walk["summary"]["plan_hash"], word_after(output, "recorded fly.json: 6 frames, plan hash "));
+    EXPECT_GT(walk["summary"]["lod_error_px"]["max"], 1.0);
+}
+
 TEST_F(View, keeps_its_scene_when_another_cannot_be_opened) {
     const Outcome outcome =
         view("town:size=96 --size 320x200" + kPrices, "frames 1\nopen missing.glb\nframes 1\n");
