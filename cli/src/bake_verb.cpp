@@ -5,6 +5,7 @@
 
 #include "constants.h"
 #include "instances.h"
+#include "level_chains.h"
 #include "method.h"
 #include "progress.h"
 #include "rhview/base/version.h"
@@ -32,6 +33,16 @@ Result<std::optional<UserConstants>> constants_of(const BakeOptions& options, co
     if (!chosen) return chosen.error();
     if (!chosen->warning.empty()) fmt::print(stderr, "rhview: warning: {}\n", chosen->warning);
     return chosen->constants;
+}
+
+std::string levels_text(const std::vector<LodChain>& chains, double build_ms) {
+    std::size_t levels = 0, bytes = 0;
+    for (const LodChain& chain : chains) {
+        levels += chain.levels.size() - 1;
+        bytes += chain.indices.span().size_bytes();
+    }
+    return fmt::format("{} of detail below full, {:.1f} MiB; built in {:.0f} ms", levels,
+                       static_cast<double>(bytes) / (1024.0 * 1024.0), build_ms);
 }
 
 }  // namespace
@@ -69,12 +80,22 @@ Result<int> run_bake(const BakeOptions& options) {
     if (!octree) return Error{scene.name + ": " + octree.error().message};
     const double build_ms = build_timer.elapsed_ms();
 
+    std::vector<LodChain> chains;
+    const gl::WallTimer chain_timer;
+    if (!scene.dynamic_objects.empty()) {
+        Result<std::vector<LodChain>> built = build_chains(scene, progress);
+        if (!built) return built.error();
+        chains = std::move(built).value();
+    }
+    const double chains_ms = chain_timer.elapsed_ms();
+
     progress.say("writing");
     const gl::WallTimer write_timer;
     // Baked anew, a scene keeps the name of its first source.
     const std::string source = loaded->baked ? loaded->baked->provenance.source : options.scene;
     add_scene_sections(*writer, *loaded, {source, fmt::format("rhview {}", kVersion)});
     add_octree_sections(*writer, *octree, batches, octree_options);
+    if (!chains.empty()) add_lod_sections(*writer, chains);
     const Result<std::uint64_t> bytes = writer->finish();
     if (!bytes) return bytes.error();
     const double write_ms = write_timer.elapsed_ms();
@@ -93,6 +114,7 @@ Result<int> run_bake(const BakeOptions& options) {
         "{:.0f} ms\n",
         octree->nodes().size(), octree->leaf_count(), octree_options.max_leaf_triangles,
         octree->replicas().size(), static_cast<double>(octree->replica_bytes()) / kMebibyte, build_ms);
+    if (!chains.empty()) fmt::print("  levels      {}\n", levels_text(chains, chains_ms));
     fmt::print("  file        {:.1f} MiB, written in {:.0f} ms\n", static_cast<double>(*bytes) / kMebibyte,
                write_ms);
     return kDone;

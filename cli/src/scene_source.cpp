@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "level_chains.h"
 #include "rhview/gl/timer.h"
 #include "rhview/scenes/import.h"
 
@@ -34,9 +35,13 @@ Result<LoadedScene> load_baked(const std::string& name) {
     Result<BakedOctree> octree = read_octree_sections(*file);
     if (!octree) return octree.error();
     if (Status status = check_fit(*file, scene->scene.scene, *octree); !status) return status.error();
-    return LoadedScene{
-        {std::move(scene->scene)},
-        BakedParts{std::move(octree).value(), std::move(scene->provenance), timer.elapsed_ms()}};
+    Result<std::optional<std::vector<LodChain>>> chains = read_lod_sections(*file);
+    if (!chains) return chains.error();
+    if (*chains)
+        if (Status status = check_chains(*file, scene->scene.scene, **chains); !status) return status.error();
+    return LoadedScene{{std::move(scene->scene)},
+                       BakedParts{std::move(octree).value(), std::move(chains).value(),
+                                  std::move(scene->provenance), timer.elapsed_ms()}};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "rhview/base/result.h"
+#include "rhview/lod/baked_lod.h"
 #include "rhview/rhoctree/baked_octree.h"
 #include "rhview/scenes/baked_scene.h"
 
@@ -16,6 +17,7 @@ namespace rhview::cli {
 /// What a baked file brings beside the scene.
 struct BakedParts {
     BakedOctree octree;
+    std::optional<std::vector<LodChain>> chains;  ///< by mesh; absent: the file has none
     SceneProvenance provenance;
     double load_ms = 0.0;  ///< mapping and checking all of it
 };

@@ -28,6 +28,16 @@ std::string table_row(const char* name, int decimals, const std::vector<double>&
                        decimals, s.p95, decimals, s.max, decimals);
 }
 
+std::string image_error_line(const WalkReport& report) {
+    const std::optional<ImageErrorSummary> error = report.image_error();
+    if (!error) return "";
+    const std::string ssim =
+        error->ssim ? fmt::format("SSIM {:.5f} (least {:.5f}), ", error->ssim->mean, error->least_ssim) : "";
+    return fmt::format("  image error in {} frame{}: {}PSNR {:.1f} dB, depth {:.4f} % of the distance\n",
+                       error->frames, error->frames == 1 ? "" : "s", ssim, gl::psnr_db(error->colour_mse),
+                       100.0 * error->depth.mean);
+}
+
 std::string timing_line(const WalkReport& report) {
     if (report.in_steps) return "  no prediction: the model has no price for waiting\n";
     if (!report.profile) return fmt::format("  no prediction: {}\n", report.why_no_profile);
@@ -38,6 +48,13 @@ std::string timing_line(const WalkReport& report) {
         "  constants {}\n",
         100.0 * error.median, 100.0 * error.p95, constants.c1_ns,
         constants.c3_ns + constants.sub_draw_ns.value_or(0.0), report.profile->told);
+}
+
+std::string lod_line(const WalkReport& report) {
+    if (!report.lod.budget_ms) return "";
+    return fmt::format("  budget {} ms: the model says that {} of {} frames can hold it; {} of those did\n",
+                       *report.lod.budget_ms, report.frames_within_reach(), report.frames.size(),
+                       report.frames_within_budget());
 }
 
 std::string method_line(const WalkReport& report) {
@@ -60,10 +77,48 @@ int WalkReport::checked_frames() const {
         std::ranges::count_if(frames, [](const FrameRecord& f) { return f.missing_pixels.has_value(); }));
 }
 
+int WalkReport::frames_within_reach() const {
+    return static_cast<int>(
+        std::ranges::count_if(frames, [](const FrameRecord& f) { return f.budget && f.budget->can_be_met; }));
+}
+
+int WalkReport::frames_within_budget() const {
+    return static_cast<int>(std::ranges::count_if(frames, [&](const FrameRecord& f) {
+        return f.budget && f.budget->can_be_met && f.frame_ms <= lod.budget_ms.value_or(0.0);
+    }));
+}
+
 std::uint64_t WalkReport::missing_pixels() const {
     std::uint64_t total = 0;
     for (const FrameRecord& frame : frames) total += frame.missing_pixels.value_or(0);
     return total;
+}
+
+double modelled_indices(const FrameRecord& frame) {
+    constexpr double kIndicesPerDraw = 8000.0;
+    return frame.work.indices + kIndicesPerDraw * frame.work.draw_calls;
+}
+
+std::optional<ImageErrorSummary> WalkReport::image_error() const {
+    ImageErrorSummary sum;
+    std::vector<double> ssim;
+    for (const FrameRecord& frame : frames) {
+        if (!frame.image_error) continue;
+        const gl::ImageDifference& error = *frame.image_error;
+        ++sum.frames;
+        sum.missing_pixels += error.missing_pixels;
+        sum.depth.mean += error.depth.mean;
+        sum.depth.greatest = std::max(sum.depth.greatest, error.depth.greatest);
+        sum.colour_mse += error.colour_mse;
+        if (error.ssim) ssim.push_back(*error.ssim);
+    }
+    if (sum.frames == 0) return {};
+    sum.depth.mean /= sum.frames;
+    sum.colour_mse /= sum.frames;
+    if (ssim.empty()) return sum;
+    sum.ssim = summarise(ssim);
+    sum.least_ssim = *std::ranges::min_element(ssim);
+    return sum;
 }
 
 std::string instancing_text(const InstancingReport& report) {
@@ -82,14 +137,18 @@ std::string instancing_text(const InstancingReport& report) {
 std::string to_csv(const WalkReport& report) {
     std::string csv =
         "frame,draw_calls,sub_draws,indices,nodes_visited,cull_ms,frame_ms,gpu_ms,missing_pixels,predicted_"
-        "ms,queries\n";
+        "ms,queries,lod_error_px,budget_can_be_met\n";
     for (const FrameRecord& f : report.frames) {
-        csv +=
-            fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{},{}\n", f.frame, count(f.work.draw_calls),
-                        count(f.work.sub_draws), count(f.work.indices), f.nodes_visited, f.cull_ms,
-                        f.frame_ms, f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
-                        f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
-                        f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "", count(f.work.queries));
+        csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{},{},{},{},{:.4f},{}\n", f.frame,
+                           count(f.work.draw_calls), count(f.work.sub_draws), count(f.work.indices),
+                           f.nodes_visited, f.cull_ms, f.frame_ms,
+                           f.gpu_ms ? fmt::format("{:.4f}", *f.gpu_ms) : "",
+                           f.missing_pixels ? std::to_string(*f.missing_pixels) : "",
+                           f.predicted_ms ? fmt::format("{:.4f}", *f.predicted_ms) : "",
+                           count(f.work.queries), f.lod_error_px,
+                           !f.budget              ? ""
+                           : f.budget->can_be_met ? "1"
+                                                  : "0");
     }
     return csv;
 }
@@ -147,9 +206,11 @@ std::string to_table(const WalkReport& report) {
         of("indices skipped", 0,
            [](const OcclusionRecord& o, const FrameRecord&) { return o.skipped_indices; });
     }
+    row("V + 8000 N", 0, [](const FrameRecord& f) { return modelled_indices(f); });
     row("nodes visited", 0, [](const FrameRecord& f) { return f.nodes_visited; });
     if (report.scene.dynamic_objects > 0)
         row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
+    if (report.lod.levels > 0) row("LoD error, px", 2, [](const FrameRecord& f) { return f.lod_error_px; });
     if (report.scene.static_instances > 0)
         row("instances", 1, [](const FrameRecord& f) { return f.visible_instances; });
     row("cull ms", 3, [](const FrameRecord& f) { return f.cull_ms; });
@@ -163,6 +224,7 @@ std::string to_table(const WalkReport& report) {
                     report.scene.batches + report.scene.object_groups,
                     3 * (report.scene.static_triangles + report.scene.dynamic_triangles), report.plan_hash);
     table += timing_line(report);
+    table += lod_line(report);
     if (report.has_occlusion())
         table += fmt::format("  occlusion: {} answers waited for, {} lost\n", report.blocking_reads,
                              report.lost_queries);
@@ -171,6 +233,7 @@ std::string to_table(const WalkReport& report) {
     if (const int checked = report.checked_frames(); checked > 0)
         table += fmt::format("  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
                              checked == 1 ? "" : "s");
+    table += image_error_line(report);
     table += reveal_frames_line(report);
     return table;
 }

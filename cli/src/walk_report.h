@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "rhview/gl/image_difference.h"
 #include "rhview/scenes/scene.h"
 #include "rhview/timing_model/profile.h"
+#include "statistics.h"
 
 namespace rhview::cli {
 
@@ -29,6 +31,13 @@ struct OcclusionRecord {
     double saved_ms = 0.0;
 };
 
+/// What was said of a frame's budget before it was drawn.
+struct BudgetRecord {
+    double predicted_ms = 0.0;
+    double margin = 1.0;  ///< by which predictions are reckoned to be too low
+    bool can_be_met = false;
+};
+
 /// What was counted and measured in one frame; absent is what was not measured.
 struct FrameRecord {
     int frame = 0;
@@ -42,10 +51,26 @@ struct FrameRecord {
     std::optional<double> predicted_ms;
     std::optional<double> running_predicted_ms;  ///< with constants that follow the frames before
     std::optional<OcclusionRecord> occlusion;
+    double lod_error_px = 0.0;  ///< the largest of an object that was drawn; infinite where nothing bounds it
+    std::optional<BudgetRecord> budget;
     std::optional<std::uint64_t> visible_set_indices;  ///< of the leaves that show a pixel
     std::optional<std::uint64_t> missing_pixels;
-    std::optional<std::uint64_t> late_items;  ///< leaves and objects that lack a pixel; latent mode
+    std::optional<std::uint64_t> late_items;         ///< leaves and objects that lack a pixel; latent mode
+    std::optional<gl::ImageDifference> image_error;  ///< from everything at full detail
 };
+
+/// The picture's error over the frames in which it was measured.
+struct ImageErrorSummary {
+    int frames = 0;
+    std::uint64_t missing_pixels = 0;
+    gl::DepthDifference depth;  ///< the mean of means, the greatest of all
+    double colour_mse = 0.0;    ///< mean
+    std::optional<Statistics> ssim;
+    double least_ssim = 1.0;
+};
+
+/// V + 8000·N: a frame's price, in indices, where a draw call costs as much as 8,000 of them.
+double modelled_indices(const FrameRecord& frame);
 
 /// One method along one path: the run of `rhview.walk/1`.
 struct WalkReport {
@@ -83,6 +108,13 @@ struct WalkReport {
         std::string source;  ///< "file", "quick" or "set"
         std::string told;
     };
+    struct {
+        double error_bound_px = 0.0;
+        std::optional<double> budget_ms;
+        std::optional<double> build_ms;  ///< of chains; absent: from a baked file, or none
+        std::uint64_t levels = 0;        ///< of all chains, the meshes themselves not counted
+        std::uint64_t index_bytes = 0;   ///< of those
+    } lod;
     std::optional<Profile> profile;
     std::string why_no_profile;
     std::string occlusion;                  ///< "auto", "hardware", "boxes" or "off"
@@ -96,6 +128,7 @@ struct WalkReport {
     std::optional<std::vector<double>> reveal_frames;
     std::string method;
     std::string mode;
+    std::uint32_t visible_pixels = 0;  ///< below which latent mode leaves out what it saw
     std::string submission;
     std::optional<std::uint32_t> leaf;
     int width = 0;
@@ -105,7 +138,12 @@ struct WalkReport {
 
     [[nodiscard]] bool has_occlusion() const;
     [[nodiscard]] int checked_frames() const;
+    /// Frames that can hold the budget, by the model, and those of them that did.
+    [[nodiscard]] int frames_within_reach() const;
+    [[nodiscard]] int frames_within_budget() const;
     [[nodiscard]] std::uint64_t missing_pixels() const;
+    /// Absent where no frame's was measured.
+    [[nodiscard]] std::optional<ImageErrorSummary> image_error() const;
 };
 
 std::string to_json(const WalkReport& report);

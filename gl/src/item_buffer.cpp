@@ -103,7 +103,8 @@ void ItemBuffer::draw(const DrawState& state, std::uint32_t first_index, std::ui
 std::span<const std::uint32_t> ItemBuffer::item_pixels(std::span<const ItemRange> ranges,
                                                        std::uint32_t first_object, const SceneBuffers& scene,
                                                        const View& view,
-                                                       std::span<const glm::dmat4> placements) {
+                                                       std::span<const glm::dmat4> placements,
+                                                       std::span<const std::uint8_t> levels) {
     const StateGuard state_guard(has_clip_control());
     const TargetGuard target_guard;
     begin(view);
@@ -115,7 +116,8 @@ std::span<const std::uint32_t> ItemBuffer::item_pixels(std::span<const ItemRange
     for (std::size_t i = 0; i < scene.objects().size(); ++i) {
         const ObjectInstance& object = scene.objects()[i];
         set_transform(view, scene.origin(), i < placements.size() ? placements[i] : object.scene_from_mesh);
-        draw(object.state, object.first_index, object.index_count, item);
+        const LevelRange range = scene.level_range(object, i < levels.size() ? levels[i] : 0u);
+        draw(object.state, range.first_index, range.index_count, item);
         if (first_object != kNoItem) ++item;
     }
     pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
@@ -127,8 +129,9 @@ std::span<const std::uint32_t> ItemBuffer::item_pixels(std::span<const ItemRange
 
 std::vector<std::uint32_t> ItemBuffer::visible_items(std::span<const ItemRange> ranges,
                                                      const SceneBuffers& scene, const View& view,
-                                                     std::span<const glm::dmat4> placements) {
-    item_pixels(ranges, kNoItem, scene, view, placements);
+                                                     std::span<const glm::dmat4> placements,
+                                                     std::span<const std::uint8_t> levels) {
+    item_pixels(ranges, kNoItem, scene, view, placements, levels);
     std::ranges::sort(pixels_);
     std::vector<std::uint32_t> seen;
     for (const std::uint32_t item : pixels_)

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <tuple>
 
 #include "box_drawer.h"
 #include "object_drawer.h"
@@ -104,10 +105,22 @@ struct SteppedExecutor::State {
         }
     }
 
+    /// What shares mesh and level stands together, and so shares a call.
+    void choose_levels() {
+        placed.object_levels.clear();
+        if (options.object_levels.empty()) return;
+        const auto level_of = [&](ObjectId id) { return options.object_levels[index_of(id)]; };
+        std::ranges::sort(placed.objects, {}, [&](ObjectId id) {
+            return std::tuple(scene->objects()[index_of(id)].mesh, level_of(id), id);
+        });
+        for (const ObjectId id : placed.objects) placed.object_levels.push_back(level_of(id));
+    }
+
     void draw_objects(std::span<const ObjectId> ids) {
         if (ids.empty()) return;
         ObjectDrawer& objects = *executor.objects_;
         placed.objects.assign(ids.begin(), ids.end());
+        choose_levels();
         objects.place(placed, *scene, view, options.placements);
         if (change_to(Drawing::Objects)) objects.begin(options.colour);
         for (const ObjectRun& run : objects.at_once()) {

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
 
 namespace rhview {
 namespace {
+
+/// Of what is computed in a dozen steps from a square.
+constexpr double kRoundingUp = 1e-7;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -53,10 +57,28 @@ BoundingSphere sphere_of(const Aabb& box) {
     return {0.5 * (low + high), 0.5 * glm::length(high - low) * (1.0 + 1e-12)};
 }
 
+double largest_stretch(const glm::dmat3& linear) {
+    // The greatest eigenvalue of AᵀA, in closed form: Smith, "Eigenvalues of a symmetric 3 × 3 matrix", 1961.
+    const glm::dmat3 square = glm::transpose(linear) * linear;
+    const double mean = (square[0][0] + square[1][1] + square[2][2]) / 3.0;
+    const glm::dmat3 rest = square - glm::dmat3(mean);
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) sum += glm::dot(rest[i], rest[i]);
+    const double spread = std::sqrt(sum / 6.0);
+    double greatest = mean;
+    if (spread > 0.0) {
+        const double cosine = 0.5 * glm::determinant(rest / spread);
+        greatest = mean + 2.0 * spread * std::cos(std::acos(std::clamp(cosine, -1.0, 1.0)) / 3.0);
+    }
+    return std::sqrt(greatest) * (1.0 + kRoundingUp);
+}
+
 double pixels_per_unit(const glm::dmat4& clip_from_object, const BoundingSphere& sphere, double width_px,
                        double height_px) {
     const Row x(clip_from_object, 0), y(clip_from_object, 1), w(clip_from_object, 3);
-    const double w_min = w.at(sphere.centre) - glm::length(w.linear) * sphere.radius;
+    const double w_reach = glm::length(w.linear) * sphere.radius;
+    const double w_min = w.at(sphere.centre) - w_reach;
+    if (w.at(sphere.centre) + w_reach < 0.0) return 0.0;
     if (!(w_min > 0.0)) return kInfinity;
     const ScreenRange s = range_on_screen(x, w, sphere, w_min), t = range_on_screen(y, w, sphere, w_min);
     double most = 0.0;

@@ -27,6 +27,12 @@ struct OcclusionScheduler::State {
           pending(wanted.lost_after_frames),
           model(wanted) {}
 
+    /// What is seen too little counts as hidden, where pixels may be missing and samples were counted.
+    [[nodiscard]] bool counts_as_visible(const QueryAnswer& answer) const {
+        const bool too_little = settings.mode == OcclusionMode::Latent && answer.samples > 0 &&
+                                answer.samples < settings.visible_samples;
+        return answer.visible && !too_little;
+    }
     void tell_members(const PendingQueries::Found& query, bool visible, bool learnt);
     void decide_by_paper(std::span<const OcclusionCandidate> candidates, QueryWriter& writer,
                          OcclusionDecisions& out);
@@ -89,10 +95,11 @@ void OcclusionScheduler::absorb(std::span<const QueryAnswer> answers) {
             ++state_->counters.unknown_tickets;
             continue;
         }
+        const bool visible = state_->counts_as_visible(answer);
         ++state_->counters.answers;
-        if (!answer.visible) ++state_->counters.hidden;
-        if (query.explores) state_->model.learn_explored(!answer.visible);
-        state_->tell_members(query, answer.visible, true);
+        if (!visible) ++state_->counters.hidden;
+        if (query.explores) state_->model.learn_explored(!visible);
+        state_->tell_members(query, visible, true);
     }
 }
 

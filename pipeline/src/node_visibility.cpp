@@ -165,6 +165,8 @@ OcclusionCandidate NodeVisibility::candidate_of(std::uint32_t item, const Aabb& 
     const float scale = lens_.parallel ? 1.0f : 1.0f / (candidate.distance * candidate.distance);
     const float pixels = seen * scale * lens_.pixels_per_unit;
     candidate.pixels = pixels < lens_.screen_pixels ? pixels : lens_.screen_pixels;
+    candidate.counts_samples =
+        options_.settings.mode == OcclusionMode::Latent && options_.settings.visible_samples > 1;
     return candidate;
 }
 

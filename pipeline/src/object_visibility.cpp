@@ -55,7 +55,7 @@ NodeVisibility::Parts NodeVisibility::add_object(const FrameInput& input, std::u
     OcclusionCandidate candidate = candidate_of(item, box);
     candidate.render_ns = known ? static_cast<float>(object_ns(input, object)) : 0.0f;
     candidate.testable = known && is_testable(box);
-    candidate.counts_samples = options_.counts_samples;
+    candidate.counts_samples |= options_.counts_samples;
     candidates_.push_back(candidate);
     region_of_candidate_.push_back(kNoRegion);
     return part_of(candidate, belief);

@@ -9,6 +9,8 @@
 
 #include "occlusion_fixture.h"
 #include "random_geometry.h"
+#include "rhview/gl/item_buffer.h"
+#include "rhview/gl/stepped_executor.h"
 #include "rhview/scenes/object_motion.h"
 #include "uniform.h"
 
@@ -141,6 +143,46 @@ TEST_P(Instancing, a_level_draws_its_own_indices) {
     const std::vector<float> level = depths_of(one, *made.buffers, view_, options);
     EXPECT_EQ(level, depths_of(same, other_buffers, view_));
     EXPECT_GT(covered_pixels(level, ClipDepth::ReversedZeroToOne), 20u);
+}
+
+TEST_P(Instancing, what_draws_as_it_finds_draws_the_levels_that_a_plan_would) {
+    const Instances made(origin_);
+    FramePlan plan = made.plan();
+    const std::vector<float> planned = depths_of(plan, *made.buffers, view_);
+    SteppedExecutor stepped = SteppedExecutor::create(*executor_).value();
+    DrawOptions options;
+    options.object_levels = plan.object_levels;
+    target_->begin(view_.clip_depth, glm::vec3(0.0f));
+    stepped.begin(*made.buffers, view_, options);
+    stepped.draw({}, plan.objects);
+    const FrameCounters counters = stepped.end();
+    std::vector<float> drawn;
+    target_->read_depth(drawn);
+    EXPECT_EQ(drawn, planned);
+    EXPECT_EQ(counters.indices, counters_.indices);
+    EXPECT_EQ(counters.instances, kObjects);
+    // By mesh and level; mirrored ones stand between those that are not.
+    EXPECT_LT(counters.draw_calls, counters_.draw_calls);
+}
+
+TEST_P(Instancing, an_item_buffer_sees_objects_at_their_levels) {
+    const Instances made(origin_);
+    const FramePlan plan = made.plan();
+    const std::vector<float> depths = depths_of(plan, *made.buffers, view_);
+    ItemBuffer items = ItemBuffer::create(target_->width(), target_->height()).value();
+    const auto seen = items.item_pixels({}, 0, *made.buffers, view_, {}, plan.object_levels);
+    std::size_t differ = 0, of_coarse = 0;
+    for (std::size_t p = 0; p < depths.size(); ++p) {
+        differ += (seen[p] != ItemBuffer::kNoItem) != (depths[p] != 0.0f);
+        of_coarse += seen[p] != ItemBuffer::kNoItem && plan.object_levels[seen[p]] == 1;
+    }
+    EXPECT_EQ(differ, 0u);
+    EXPECT_GT(of_coarse, 20u);
+    const auto whole = items.item_pixels({}, 0, *made.buffers, view_);
+    std::size_t of_whole = 0;
+    for (const std::uint32_t item : whole)
+        of_whole += item != ItemBuffer::kNoItem && plan.object_levels[item] == 1;
+    EXPECT_GT(of_whole, of_coarse);
 }
 
 TEST_P(Instancing, objects_are_drawn_where_the_frame_places_them) {

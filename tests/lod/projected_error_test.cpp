@@ -109,13 +109,34 @@ TEST(PixelsPerUnit, scale_counts_where_it_stretches) {
 
 TEST(PixelsPerUnit, a_sphere_that_reaches_the_eye_allows_no_error_at_all) {
     const glm::dmat4 m = perspective(1.0, 1.5, 0.1, 1000, {});
-    for (const BoundingSphere& sphere : {BoundingSphere{{0, 0, -1}, 1.0}, BoundingSphere{{0, 0, -1}, 2.0},
-                                         BoundingSphere{{0, 0, 5}, 0.1}, BoundingSphere{{0, 0, 0}, 0.0}}) {
+    for (const BoundingSphere& sphere :
+         {BoundingSphere{{0, 0, -1}, 1.0}, BoundingSphere{{0, 0, -1}, 2.0}, BoundingSphere{{0, 0, 0}, 0.0}}) {
         const double factor = pixels_per_unit(m, sphere, kWidth, kHeight);
         EXPECT_EQ(factor, std::numeric_limits<double>::infinity());
         EXPECT_EQ(projected_error_px(0.0f, factor), 0.0);
         EXPECT_EQ(projected_error_px(1e-9f, factor), std::numeric_limits<double>::infinity());
     }
+}
+
+TEST(PixelsPerUnit, what_is_all_behind_the_eye_is_not_on_the_screen) {
+    const glm::dmat4 m = perspective(1.0, 1.5, 0.1, 1000, {});
+    EXPECT_EQ(pixels_per_unit(m, {{0, 0, 5}, 0.1}, kWidth, kHeight), 0.0);
+    EXPECT_EQ(pixels_per_unit(m, {{0, 0, 5}, 5.0}, kWidth, kHeight), std::numeric_limits<double>::infinity());
+}
+
+TEST(LargestStretch, no_vector_is_stretched_more_and_one_is_as_much) {
+    Uniform uniform(11);
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dmat3 m =
+            i % 5 == 0 ? glm::dmat3(uniform.log(0.01, 100.0)) : glm::dmat3(random_placement(uniform));
+        const double most = largest_stretch(m);
+        // Power iteration finds the vector that is stretched most.
+        glm::dvec3 v = glm::normalize(uniform.point(1.0) + glm::dvec3(1e-3));
+        for (int k = 0; k < 2000; ++k) v = glm::normalize(glm::transpose(m) * (m * v));
+        ASSERT_GE(most, glm::length(m * v)) << i;
+        ASSERT_LE(most, glm::length(m * v) * (1.0 + 1e-4)) << i;
+    }
+    EXPECT_FALSE(std::isfinite(largest_stretch(glm::dmat3(std::numeric_limits<double>::quiet_NaN()))));
 }
 
 TEST(PixelsPerUnit, what_is_no_number_allows_no_error_at_all) {

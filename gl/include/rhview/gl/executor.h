@@ -70,6 +70,8 @@ struct DrawOptions {
     /// Where the objects are, by `ObjectId` (`scene_from_mesh`); only those in the plan are read. Empty:
     /// where the scene placed them.
     std::span<const glm::dmat4> placements{};
+    /// Their levels of detail, by `ObjectId`, for `SteppedExecutor`: a plan names its own. Empty: all of it.
+    std::span<const std::uint8_t> object_levels{};
 };
 
 struct ExecutorOptions {

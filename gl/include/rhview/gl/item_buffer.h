@@ -32,17 +32,20 @@ class ItemBuffer {
 
     static constexpr std::uint32_t kNoItem = 0xffffffffu;
 
-    /// Draws `ranges` (by batch, best) and all objects of `scene`, at full detail, where `placements` (by
-    /// `ObjectId`) says, or if that is empty the scene; the items that are seen, ascending. Of surfaces at
-    /// the same depth the first drawn is seen. State is put back.
+    /// Draws `ranges` (by batch, best) and all objects of `scene`, where `placements` (by `ObjectId`) says,
+    /// or if that is empty the scene, at `levels` of detail (by `ObjectId`), or if that is empty all of it;
+    /// the items that are seen, ascending. Of surfaces at the same depth the first drawn is seen. State is
+    /// put back.
     std::vector<std::uint32_t> visible_items(std::span<const ItemRange> ranges, const SceneBuffers& scene,
-                                             const View& view, std::span<const glm::dmat4> placements = {});
+                                             const View& view, std::span<const glm::dmat4> placements = {},
+                                             std::span<const std::uint8_t> levels = {});
 
     /// The same, as what each pixel shows, row after row from the lowest. Objects are the items from
     /// `first_object` on, or none where that is `kNoItem`. Valid until the next call.
     std::span<const std::uint32_t> item_pixels(std::span<const ItemRange> ranges, std::uint32_t first_object,
                                                const SceneBuffers& scene, const View& view,
-                                               std::span<const glm::dmat4> placements = {});
+                                               std::span<const glm::dmat4> placements = {},
+                                               std::span<const std::uint8_t> levels = {});
 
   private:
     struct Uniforms {

@@ -25,7 +25,8 @@ class SteppedExecutor final : public OcclusionDevice {
     ~SteppedExecutor() override;
 
     /// Draws into the bound framebuffer and viewport. `scene` outlives the frame. `options.counter` is not
-    /// used: OpenGL knows one occlusion query at a time. Otherwise as for `Executor::draw`.
+    /// used: OpenGL knows one occlusion query at a time. `options.object_levels` holds for all objects of the
+    /// frame: those of one call are drawn by mesh and level. Otherwise as for `Executor::draw`.
     void begin(const SceneBuffers& scene, const View& view, const DrawOptions& options = {});
     /// Puts OpenGL's state back. All draws count as draws at once.
     FrameCounters end();

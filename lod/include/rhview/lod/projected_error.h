@@ -5,6 +5,7 @@
 /// How far an error in object units can move what is seen on the screen.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -21,9 +22,14 @@ struct BoundingSphere {
 /// The sphere about a box. An empty box gives radius 0.
 BoundingSphere sphere_of(const Aabb& box);
 
+/// The longest that a vector of length 1 can get: the greatest singular value, rounded up. Not finite where
+/// the matrix is not.
+double largest_stretch(const glm::dmat3& linear);
+
 /// Pixels on the screen that one object unit inside `sphere` can move at most: two points in it that are `d`
 /// apart, of which one is on the screen, are at most `d` times this apart in the picture. Infinity if the
-/// sphere reaches the plane through the eye (w <= 0): there nothing bounds it, so only error 0 is safe.
+/// sphere reaches the plane through the eye (w <= 0): there nothing bounds it, so only error 0 is safe. 0 if
+/// all of it is behind that plane: nothing of it is on the screen.
 ///
 /// Proof: with rows x, y, w of `clip_from_object`, s = x·p / w·p and d = q - p,
 ///   x·q / w·q - s = ((x - s w)·d) / (w·q),

@@ -114,7 +114,7 @@ class OcclusionScheduler {
     void decide(std::span<const OcclusionCandidate> candidates, OcclusionDecisions& out);
 
     struct Counters {
-        std::uint64_t answers = 0, hidden = 0;        ///< absorbed; of those, not visible
+        std::uint64_t answers = 0, hidden = 0;        ///< absorbed; of those, taken for hidden
         std::uint64_t unknown_tickets = 0, lost = 0;  ///< answers that nobody asked for; queries given up
     };
     [[nodiscard]] const Counters& counters() const;

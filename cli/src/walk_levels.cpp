@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "walk_levels.h"
+
+#include <algorithm>
+
+#include "level_chains.h"
+
+namespace rhview::cli {
+
+WalkLevels::WalkLevels(const Scene& scene, std::span<const LodChain> chains, const WalkOptions& options,
+                       const TimingProfile* profile)
+    : scene_(scene), levels_(chains, levelled_objects(scene)) {
+    options_.max_error_px = options.lod_error_px;
+    if (options.budget_ms && profile != nullptr) budget_.emplace(*options.budget_ms, profile->residuals);
+}
+
+void WalkLevels::choose(const FrameInput& input, const TimingProfile* profile, FramePlan& plan,
+                        FrameRecord& record) {
+    if (budget_ && profile != nullptr) budget_->limit(plan, *profile, options_);
+    const LevelSummary chosen = levels_.choose(input, options_, plan);
+    if (budget_) budget_->decide(chosen, record);
+}
+
+std::span<const std::uint8_t> WalkLevels::choose_ahead(const FrameInput& input) {
+    levels_.choose(input, options_);
+    return levels_.levels();
+}
+
+void WalkLevels::name_levels(FramePlan& drawn) const {
+    drawn.object_levels.clear();
+    for (const ObjectId object : drawn.objects)
+        drawn.object_levels.push_back(levels_.levels()[index_of(object)]);
+}
+
+double WalkLevels::error_px(const FramePlan& plan, std::span<const QueryAnswer> answers) const {
+    double most = 0.0;
+    for (const ObjectId object : plan.objects) most = std::max(most, levels_.error_px(object));
+    for (const ConditionalObject& object : plan.conditional_objects) {
+        const double error_px = levels_.error_px(object.object);
+        if (error_px <= most) continue;
+        const std::uint64_t ticket = plan.queries[object.query].ticket;
+        const auto answer = std::ranges::find(answers, ticket, &QueryAnswer::ticket);
+        if (answer == answers.end() || answer->visible) most = error_px;
+    }
+    return most;
+}
+
+void WalkLevels::count_indices(const FramePlan& plan, std::vector<std::uint32_t>& object_indices) const {
+    const auto count = [&](ObjectId object) {
+        const SceneMesh& mesh = scene_.meshes[index_of(scene_.object_mesh(object))];
+        object_indices[index_of(object)] =
+            levels_.indices(object, static_cast<std::uint32_t>(mesh.indices.size()));
+    };
+    if (object_indices.empty()) return;
+    std::ranges::for_each(plan.objects, count);
+    for (const ConditionalObject& object : plan.conditional_objects) count(object.object);
+}
+
+void WalkLevels::observe(const FrameRecord& record) {
+    if (budget_) budget_->observe(record);
+}
+
+std::span<const std::uint8_t> WalkLevels::complete(const FrameInput& input, const FramePlan& plan) {
+    levels_.complete(input, options_, plan, all_);
+    return all_;
+}
+
+}  // namespace rhview::cli

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "rhview/pipeline/object_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <numbers>
+
+#include "rhview/base/assert.h"
+#include "rhview/lod/projected_error.h"
+
+namespace rhview {
+
+ObjectLevels::ObjectLevels(std::span<const LodChain> chains, std::span<const LevelledObject> objects)
+    : chains_(chains), objects_(objects.begin(), objects.end()), selector_(chains) {
+    for (const LodChain& chain : chains) RHVIEW_ASSERT(chain.levels.size() <= 255);
+    for (const LevelledObject& object : objects_)
+        RHVIEW_ASSERT(object.chain == LevelledObject::kNoChain || object.chain < chains.size());
+}
+
+/// Null: of full detail, always.
+const LevelledObject* ObjectLevels::find(ObjectId object) const {
+    if (index_of(object) >= objects_.size()) return nullptr;
+    const LevelledObject& levelled = objects_[index_of(object)];
+    const bool several =
+        levelled.chain != LevelledObject::kNoChain && chains_[levelled.chain].levels.size() > 1;
+    return several ? &levelled : nullptr;
+}
+
+std::uint32_t ObjectLevels::indices(ObjectId object, std::uint32_t whole) const {
+    const LevelledObject* levelled = find(object);
+    if (levelled == nullptr || index_of(object) >= levels_.size()) return whole;
+    return chains_[levelled->chain].levels[levels_[index_of(object)]].index_count;
+}
+
+ObjectLevels::Lens ObjectLevels::lens_of(const FrameInput& input) {
+    return {input.culling_view.clip_from_eye_relative(), input.culling_view.eye() - input.scene_origin,
+            static_cast<double>(input.viewport_pixels.x), static_cast<double>(input.viewport_pixels.y)};
+}
+
+double ObjectLevels::pixels_per_scene_unit(const Lens& lens, const Aabb& box, double& size_px) {
+    BoundingSphere sphere = sphere_of(box);
+    sphere.centre -= lens.eye;
+    const double pixels = pixels_per_unit(lens.clip_from_relative, sphere, lens.width_px, lens.height_px);
+    const double radius_px = pixels * sphere.radius;
+    size_px = std::min(std::numbers::pi * radius_px * radius_px, lens.width_px * lens.height_px);
+    return pixels;
+}
+
+void ObjectLevels::begin(const FrameInput& input) {
+    for (const std::uint32_t object : given_levels_) levels_[object] = 0, errors_px_[object] = 0.0f;
+    given_levels_.clear();
+    levels_.resize(input.object_boxes.size(), 0);
+    errors_px_.resize(input.object_boxes.size(), 0.0f);
+    for (const ObjectId object : input.new_objects) selector_.forget(static_cast<std::uint32_t>(object));
+}
+
+void ObjectLevels::add(const FrameInput& input, const Lens& lens, ObjectId object) {
+    const LevelledObject* levelled = find(object);
+    if (levelled == nullptr) return;
+    LodObject& asked = asked_.emplace_back();
+    asked.slot = static_cast<std::uint32_t>(object);
+    asked.chain = levelled->chain;
+    asked.pixels_per_unit =
+        levelled->scale * pixels_per_scene_unit(lens, input.object_boxes[index_of(object)], asked.size_px);
+}
+
+void ObjectLevels::select(const LevelOptions& options) {
+    selection_options_.max_error_px = options.max_error_px;
+    selection_options_.budget_ns = options.budget_ns;
+    selection_options_.costs = options.costs;
+    selector_.select(asked_, selection_options_, selection_);
+    for (std::size_t i = 0; i < asked_.size(); ++i) {
+        const std::uint32_t level = selection_.levels[i], object = asked_[i].slot;
+        if (level == 0) continue;
+        levels_[object] = static_cast<std::uint8_t>(level);
+        errors_px_[object] = static_cast<float>(
+            projected_error_px(chains_[asked_[i].chain].levels[level].error, asked_[i].pixels_per_unit));
+        given_levels_.push_back(object);
+    }
+}
+
+LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& options) {
+    begin(input);
+    const Lens lens = lens_of(input);
+    in_view_.clear();
+    append_visible_objects(make_frustum(input.culling_view, input.scene_origin), input.object_boxes, in_view_,
+                           input.object_alive);
+    asked_.clear();
+    for (const ObjectId object : in_view_) add(input, lens, object);
+    select(options);
+    return {selection_.max_error_px, selection_.cost_ns, selection_.indices, selection_.bound_met,
+            selection_.budget_met};
+}
+
+LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& options, FramePlan& plan) {
+    begin(input);
+    const Lens lens = lens_of(input);
+    asked_.clear();
+    for (const ObjectId object : plan.objects) add(input, lens, object);
+    select(options);
+    const LevelSummary summary{selection_.max_error_px, selection_.cost_ns, selection_.indices,
+                               selection_.bound_met, selection_.budget_met};
+    LevelOptions hidden = options;
+    hidden.budget_ns = std::numeric_limits<double>::infinity();
+    if (std::isfinite(summary.max_error_px))
+        hidden.max_error_px = std::max(options.max_error_px, summary.max_error_px);
+    asked_.clear();
+    for (const ConditionalObject& object : plan.conditional_objects) add(input, lens, object.object);
+    select(hidden);
+    plan.object_levels.clear();
+    if (given_levels_.empty()) return summary;
+    for (const ObjectId object : plan.objects) plan.object_levels.push_back(levels_[index_of(object)]);
+    for (ConditionalObject& object : plan.conditional_objects)
+        object.level = levels_[index_of(object.object)];
+    sorter_.sort(input.object_groups, plan);
+    return summary;
+}
+
+std::uint8_t ObjectLevels::level_within(const LevelledObject& object, double pixels_per_unit,
+                                        double max_error_px) const {
+    const std::span<const LodLevel> levels = chains_[object.chain].levels;
+    std::uint8_t level = 0;
+    while (level + std::size_t{1} < levels.size() &&
+           projected_error_px(levels[level + std::size_t{1}].error, pixels_per_unit) <= max_error_px)
+        ++level;
+    return level;
+}
+
+void ObjectLevels::complete(const FrameInput& input, const LevelOptions& options, const FramePlan& plan,
+                            std::vector<std::uint8_t>& levels) const {
+    levels.assign(input.object_boxes.size(), 0);
+    const Lens lens = lens_of(input);
+    for (std::uint32_t i = 0; i < levels.size(); ++i) {
+        const LevelledObject* object = find(ObjectId{i});
+        if (object == nullptr || !(options.max_error_px > 0.0)) continue;
+        double size_px = 0.0;
+        const double pixels = object->scale * pixels_per_scene_unit(lens, input.object_boxes[i], size_px);
+        levels[i] = level_within(*object, pixels, options.max_error_px);
+    }
+    for (std::size_t i = 0; i < plan.objects.size(); ++i)
+        levels[index_of(plan.objects[i])] = plan.level_of_object(i);
+    for (const ConditionalObject& object : plan.conditional_objects)
+        levels[index_of(object.object)] = object.level;
+}
+
+}  // namespace rhview
