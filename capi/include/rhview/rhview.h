@@ -15,7 +15,8 @@
  *                draw rhview_view_plan (each view)   rhview_scene_end_frame
  *
  * Errors: a function that returns `rhview_status` changes nothing when it returns another than RHVIEW_OK;
- * `rhview_last_error` then says in a sentence why. No exception and no signal crosses this border.
+ * `rhview_last_error` then says in a sentence why. No exception crosses this border. A debug build of the
+ * library may also assert what only the caller can know.
  *
  * Structures that begin with `size` are set to zero first, `size` to their sizeof: a zero is the default of
  * every other field. So structures can grow: one that is shorter than the library's is taken with zeros
@@ -188,11 +189,6 @@ RHVIEW_API rhview_status rhview_scene_build(rhview_scene* scene, const rhview_bu
     vertices; a triangle keeps the order of its corners. */
 RHVIEW_API rhview_status rhview_scene_indices(const rhview_scene* scene, const uint32_t** indices,
                                               size_t* count);
-/** Writes the built octree to a file, or reads one in place of batches and build: then the batches are those
-    of the file, by number. Objects are not in it. A file that is damaged is RHVIEW_INVALID_DATA. */
-RHVIEW_API rhview_status rhview_scene_save(const rhview_scene* scene, const char* file);
-RHVIEW_API rhview_status rhview_scene_load(rhview_scene* scene, const char* file,
-                                           const rhview_workers* workers);
 
 /* Moving objects ----------------------------------------------------------------------------------------- */
 
@@ -215,7 +211,7 @@ RHVIEW_API rhview_status rhview_scene_remove_object(rhview_scene* scene, uint32_
 RHVIEW_API rhview_status rhview_scene_begin_frame(rhview_scene* scene, double time_s);
 /** The objects to move in this frame: those seen in the last one, and those whose promise ran out. Valid
     until the scene is changed. */
-RHVIEW_API rhview_status rhview_scene_due_objects(const rhview_scene* scene, const uint32_t** numbers,
+RHVIEW_API rhview_status rhview_scene_due_objects(rhview_scene* scene, const uint32_t** numbers,
                                                   size_t* count);
 /** Where an object is now. One that moved farther than it promised counts as having jumped. */
 RHVIEW_API rhview_status rhview_scene_move_object(rhview_scene* scene, uint32_t number,
