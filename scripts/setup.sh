@@ -11,7 +11,7 @@ set -euo pipefail
 
 packages=(
     # tools
-    g++ cmake ninja-build git python3 pkg-config clang-format
+    g++ gcc cmake ninja-build git python3 pkg-config clang-format dpkg-dev groff-base
     # the fuzzer: Clang, its sanitizers and libFuzzer
     clang libclang-rt-dev
     # the core

@@ -142,6 +142,15 @@ static rhview_costs costs_of_this_machine(void) {
     return costs;
 }
 
+/* Where a cart is: the first before the wall, the second far off. */
+static rhview_box cart_box(int cart, double time_s) {
+    rhview_box box = {{0, 0, -15}, {2, 1, -14}};
+    const float x = (float)(2.0 * time_s) + (cart == 0 ? 0.0f : 500.0f);
+    box.min[0] += x;
+    box.max[0] += x;
+    return box;
+}
+
 static rhview_scene* make_scene(const mesh* yard, const rhview_costs* costs, uint32_t carts[CARTS]) {
     rhview_scene_options options = {0};
     rhview_batch batch = {0};
@@ -163,7 +172,7 @@ static rhview_scene* make_scene(const mesh* yard, const rhview_costs* costs, uin
     for (i = 0; i < CARTS; ++i) {
         rhview_object cart = {0};
         cart.size = sizeof cart;
-        cart.box.max[0] = cart.box.max[1] = cart.box.max[2] = 1;
+        cart.box = cart_box(i, 0.0);
         cart.index_count = 3000;
         cart.top_speed = 5;
         check(rhview_scene_add_object(scene, &cart, &carts[i]), "add an object");
@@ -184,20 +193,13 @@ static rhview_view* make_view(rhview_scene* scene, const rhview_costs* costs, ui
     return view;
 }
 
-/* The carts that are due, wherever they are at this time: the first before the wall, the second far off. */
+/* Those that are due; how many. */
 static size_t move_carts(rhview_scene* scene, const uint32_t carts[CARTS], double time_s) {
     const uint32_t* due = NULL;
     size_t count = 0, i;
     check(rhview_scene_due_objects(scene, &due, &count), "due objects");
     for (i = 0; i < count; ++i) {
-        rhview_box box;
-        const float x = (float)(2.0 * time_s) + (due[i] == carts[0] ? 0.0f : 500.0f);
-        box.min[0] = x;
-        box.min[1] = 0;
-        box.min[2] = -15;
-        box.max[0] = x + 2;
-        box.max[1] = 1;
-        box.max[2] = -14;
+        const rhview_box box = cart_box(due[i] == carts[0] ? 0 : 1, time_s);
         check(rhview_scene_move_object(scene, due[i], &box), "move an object");
     }
     return count;
