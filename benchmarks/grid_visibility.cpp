@@ -5,9 +5,11 @@
 /// The regular grid with temporal bounding volumes on balls in a box, after Batagelo 2002, chapter 4: hidden
 /// objects (his figure 4.3), a walk (4.5), an empty scene by field of view (4.6), resolutions (4.7, 4.8).
 ///
-/// usage: rhview_grid_visibility [hidden|walk|traversal|resolution …]; CSV on standard output, all without.
-/// Times are of planning alone: no picture is drawn. The exact set is that of a picture of 1280 × 720 points,
-/// found ball by ball. `pvs` is what the method would draw, `in_view` what frustum culling would.
+/// usage: rhview_grid_visibility [--quick] [hidden|walk|traversal|resolution …]; CSV on standard output, all
+/// without; --quick: few frames and objects, only to see that it runs.
+/// The world is that of the named scene `spheres`. Times are of planning alone: no picture is drawn. The
+/// exact set is that of a picture of 1280 × 720 points, found ball by ball. `pvs` is what the method would
+/// draw, `in_view` what frustum culling would.
 
 #include <algorithm>
 #include <chrono>
@@ -19,92 +21,53 @@
 #include <string>
 #include <vector>
 
-#include "../tests/uniform.h"
+#include "../tests/baselines/sphere_objects.h"
 #include "rhview/baselines/grid_planner.h"
 
 namespace {
 
 using namespace rhview;
 
-constexpr glm::dvec3 kSize(100.0, 60.0, 100.0);
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr double kNear = 0.1, kFar = 1000.0, kFrameSeconds = 1.0 / 30.0;
-constexpr double kLeastRadius = 1.0, kGreatestRadius = 3.5;
-constexpr double kTopSpeed = 2.0;  ///< m/s, each way
 
-struct Ball {
-    glm::dvec3 centre{0.0};
-    double radius = 1.0;
-    glm::dvec3 step{0.0};  ///< per frame
-};
+/// A world and the time in it.
+class Flight {
+  public:
+    explicit Flight(const SphereWorldOptions& options)
+        : world_(make_sphere_world(options)), top_speed_(options.top_speed), boxes_(world_.boxes_at(0.0)) {}
 
-Aabb box_of(const Ball& ball) {
-    return {glm::vec3(ball.centre - ball.radius), glm::vec3(ball.centre + ball.radius)};
-}
-
-/// The way of the walk: a round through the middle of the box.
-glm::dvec3 way(double turn) {
-    const double angle = 2.0 * glm::radians(180.0) * turn;
-    return {50.0 + 28.0 * std::cos(angle), 30.0 + 6.0 * std::sin(2.0 * angle), 50.0 + 28.0 * std::sin(angle)};
-}
-
-double distance_to_way(const glm::dvec3& point) {
-    double least = 1e9;
-    for (int i = 0; i < 256; ++i) least = std::min(least, glm::distance(point, way(i / 256.0)));
-    return least;
-}
-
-struct World {
-    std::vector<Ball> balls;
-
-    /// The first `moving` of them move; none touches the way.
-    World(std::size_t count, std::size_t moving, std::uint32_t seed) {
-        Uniform uniform(seed);
-        while (balls.size() < count) {
-            Ball ball;
-            ball.radius = uniform(kLeastRadius, kGreatestRadius);
-            for (int a = 0; a < 3; ++a) ball.centre[a] = uniform(ball.radius, kSize[a] - ball.radius);
-            if (distance_to_way(ball.centre) < ball.radius + 1.0) continue;
-            if (balls.size() < moving)
-                for (int a = 0; a < 3; ++a) ball.step[a] = uniform(-1.0, 1.0) * kTopSpeed * kFrameSeconds;
-            balls.push_back(ball);
-        }
+    void set_frame(int frame) {
+        time_s_ = frame * kFrameSeconds;
+        boxes_ = world_.boxes_at(time_s_);
     }
-
-    void move() {
-        for (Ball& ball : balls)
-            for (int a = 0; a < 3; ++a) {
-                if (ball.step[a] == 0.0) continue;
-                const double next = ball.centre[a] + ball.step[a];
-                if (next < ball.radius || next > kSize[a] - ball.radius)
-                    ball.step[a] = -ball.step[a];
-                else
-                    ball.centre[a] = next;
-            }
+    [[nodiscard]] const SphereWorld& world() const { return world_; }
+    [[nodiscard]] std::span<const Aabb> boxes() const { return boxes_; }
+    [[nodiscard]] glm::dvec3 centre(std::size_t i) const {
+        return world_.centre_at(world_.spheres[i], time_s_);
     }
-
-    [[nodiscard]] std::vector<Aabb> boxes() const {
-        std::vector<Aabb> result;
-        for (const Ball& ball : balls) result.push_back(box_of(ball));
-        return result;
-    }
-
     [[nodiscard]] std::vector<GridObject> objects() const {
-        std::vector<GridObject> result;
-        for (const Ball& ball : balls) {
-            const auto radius = static_cast<float>(ball.radius);
-            const bool moves = ball.step != glm::dvec3(0.0);
-            result.push_back({box_of(ball), moves ? static_cast<float>(kTopSpeed * kFrameSeconds) : 0.0f,
-                              glm::vec3(0.0f), radius * 0.9999f, radius * 1.0001f});
-        }
-        return result;
+        return grid_objects(world_, top_speed_, kFrameSeconds);
     }
+
+  private:
+    SphereWorld world_;
+    double top_speed_;
+    double time_s_ = 0.0;
+    std::vector<Aabb> boxes_;
 };
+
+SphereWorldOptions still_world() {
+    SphereWorldOptions options;
+    options.spheres = 4800;
+    options.moving = 0;
+    return options;
+}
 
 GridOptions grid_of(const glm::ivec3& cells) {
     GridOptions options;
     options.cells = cells;
-    options.bounds = {glm::vec3(0.0f), glm::vec3(kSize)};
+    options.bounds = {glm::vec3(0.0f), glm::vec3(SphereWorldOptions{}.size)};
     options.nothing_leaves = true;
     return options;
 }
@@ -120,10 +83,10 @@ FrameInput seen(const glm::dvec3& eye, const glm::dvec3& forward, double fov_y_d
             {kWidth, kHeight}};
 }
 
-/// Which balls show in a picture, drawn with a depth for every point.
+/// Which spheres show in a picture, drawn with a depth for every point.
 class ExactSet {
   public:
-    std::size_t count(const World& world, const View& view) {
+    std::size_t count(const Flight& flight, const View& view) {
         depth_.assign(kWidth * kHeight, 1e30);
         owner_.assign(kWidth * kHeight, -1);
         const glm::dmat4 inverse = glm::inverse(view.clip_from_eye_relative());
@@ -133,16 +96,29 @@ class ExactSet {
         };
         const glm::dvec3 corner = ray(-1.0, -1.0), across = (ray(1.0, -1.0) - corner) / double(kWidth),
                          up = (ray(-1.0, 1.0) - corner) / double(kHeight);
-        for (std::size_t i = 0; i < world.balls.size(); ++i)
-            draw(world.balls[i], static_cast<int>(i), view, corner, across, up);
-        seen_.assign(world.balls.size(), false);
+        const std::vector<SphereWorld::Sphere>& spheres = flight.world().spheres;
+        for (std::size_t i = 0; i < spheres.size(); ++i)
+            draw({flight.centre(i), spheres[i].radius}, static_cast<int>(i), view, corner, across, up);
+        seen_.assign(spheres.size(), false);
         for (const int owner : owner_)
             if (owner >= 0) seen_[static_cast<std::size_t>(owner)] = true;
         return static_cast<std::size_t>(std::count(seen_.begin(), seen_.end(), true));
     }
-    [[nodiscard]] bool seen(std::size_t ball) const { return seen_[ball]; }
+    /// Spheres that show and that `plan` lacks.
+    [[nodiscard]] std::size_t missing(const FramePlan& plan) const {
+        std::vector<bool> drawn(seen_.size(), false);
+        for (const ObjectId object : plan.objects) drawn[index_of(object)] = true;
+        std::size_t missing = 0;
+        for (std::size_t i = 0; i < drawn.size(); ++i) missing += seen_[i] && !drawn[i] ? 1 : 0;
+        return missing;
+    }
 
   private:
+    struct Ball {
+        glm::dvec3 centre{0.0};
+        double radius = 1.0;
+    };
+
     void draw(const Ball& ball, int number, const View& view, const glm::dvec3& corner,
               const glm::dvec3& across, const glm::dvec3& up) {
         const glm::dvec3 to = ball.centre - view.eye();
@@ -220,21 +196,37 @@ void print_row(const char* test, const glm::ivec3& cells, double x, const std::v
     std::fflush(stdout);
 }
 
+struct Length {
+    std::size_t most_hidden = 20000;
+    int hidden_frames = 900;  ///< the last third counts
+    int walk_frames = 150;
+    int finest = 150;  ///< cells along each side
+};
+
+std::size_t count_in_view(const FrameInput& input) {
+    std::vector<ObjectId> all;
+    append_visible_objects(make_frustum(input.culling_view), input.object_boxes, all);
+    return all.size();
+}
+
 /// Figure 4.3: hidden moving objects, all outside of the view; the observer looks out of the box.
-void run_hidden(const glm::ivec3& cells) {
+void run_hidden(const glm::ivec3& cells, const Length& length) {
     for (const std::size_t count : {0u, 500u, 1000u, 2000u, 5000u, 10000u, 20000u}) {
-        World world(count, count, 3);
-        for (Ball& ball : world.balls) ball.radius = std::min(ball.radius, 1.5);
-        GridPlanner planner({}, {}, {}, world.objects(), grid_of(cells));
+        if (count > length.most_hidden) break;
+        SphereWorldOptions options;
+        options.spheres = options.moving = count;
+        options.greatest_radius = 1.5;
+        options.seed = 3;
+        Flight flight(options);
+        GridPlanner planner({}, {}, {}, flight.objects(), grid_of(cells));
         FramePlan plan;
         std::vector<double> ms;
         double volumes = 0.0;
-        for (int frame = 0; frame < 900; ++frame) {
-            const std::vector<Aabb> boxes = world.boxes();
-            const double t = plan_ms(planner, seen({-1, 30, 50}, {-1, 0, 0}, 55.0, boxes), plan);
-            if (frame >= 600) ms.push_back(t);
-            volumes += static_cast<double>(planner.statistics().volumes) / 900.0;
-            world.move();
+        for (int frame = 0; frame < length.hidden_frames; ++frame) {
+            flight.set_frame(frame);
+            const double t = plan_ms(planner, seen({-1, 30, 50}, {-1, 0, 0}, 55.0, flight.boxes()), plan);
+            if (3 * frame >= 2 * length.hidden_frames) ms.push_back(t);
+            volumes += static_cast<double>(planner.statistics().volumes) / length.hidden_frames;
         }
         print_row("hidden", cells, static_cast<double>(count), ms, static_cast<double>(plan.objects.size()),
                   0.0, 0.0, 0.0, volumes, 0);
@@ -242,31 +234,23 @@ void run_hidden(const glm::ivec3& cells) {
 }
 
 /// Figures 4.4 and 4.5: 150 frames through 4,800 resting and 200 moving balls; a row for every fifth.
-void run_walk(const glm::ivec3& cells) {
-    World world(5000, 200, 1);
-    GridPlanner planner({}, {}, {}, world.objects(), grid_of(cells));
+void run_walk(const glm::ivec3& cells, const Length& length) {
+    Flight flight({});
+    GridPlanner planner({}, {}, {}, flight.objects(), grid_of(cells));
     FramePlan plan;
     ExactSet exact;
-    for (int frame = 0; frame < 150; ++frame) {
-        const std::vector<Aabb> boxes = world.boxes();
+    for (int frame = 0; frame < length.walk_frames; ++frame) {
+        flight.set_frame(frame);
         const double turn = frame / 150.0;
-        const glm::dvec3 eye = way(turn);
-        const FrameInput input = seen(eye, way(turn + 0.06) - eye, 55.0, boxes);
+        const glm::dvec3 eye = flight.world().way(turn);
+        const FrameInput input = seen(eye, flight.world().way(turn + 0.06) - eye, 55.0, flight.boxes());
         const std::vector<double> ms{plan_ms(planner, input, plan)};
-        const World of_frame = world;
-        world.move();
         if (frame % 5 != 0) continue;
-        const std::size_t visible = exact.count(of_frame, input.culling_view);
-        std::vector<bool> drawn(world.balls.size(), false);
-        for (const ObjectId object : plan.objects) drawn[index_of(object)] = true;
-        std::size_t missing = 0;
-        for (std::size_t i = 0; i < drawn.size(); ++i) missing += exact.seen(i) && !drawn[i] ? 1 : 0;
-        std::vector<ObjectId> all;
-        append_visible_objects(make_frustum(input.culling_view), boxes, all);
+        const std::size_t visible = exact.count(flight, input.culling_view);
         print_row("walk", cells, frame, ms, static_cast<double>(plan.objects.size()),
-                  static_cast<double>(visible), static_cast<double>(all.size()),
+                  static_cast<double>(visible), static_cast<double>(count_in_view(input)),
                   static_cast<double>(planner.statistics().cells_reached),
-                  static_cast<double>(planner.statistics().volumes), missing);
+                  static_cast<double>(planner.statistics().volumes), exact.missing(plan));
     }
 }
 
@@ -284,44 +268,40 @@ void run_traversal(const glm::ivec3& cells) {
 }
 
 /// Figures 4.7 and 4.8: 4,800 resting balls, one place to stand, resolution N × N × N.
-void run_resolution() {
-    const World world(4800, 0, 1);
-    const std::vector<Aabb> boxes = world.boxes();
-    const glm::dvec3 eye = way(0.0);
-    const FrameInput input = seen(eye, glm::dvec3(50, 30, 50) - eye, 55.0, boxes);
+void run_resolution(const Length& length) {
+    const Flight flight(still_world());
+    const glm::dvec3 eye = flight.world().way(0.0);
+    const FrameInput input = seen(eye, 0.5 * flight.world().size - eye, 55.0, flight.boxes());
     ExactSet exact;
-    const std::size_t visible = exact.count(world, input.culling_view);
-    std::vector<ObjectId> all;
-    append_visible_objects(make_frustum(input.culling_view), boxes, all);
-    for (int n = 10; n <= 150; n += 10) {
-        GridPlanner planner({}, {}, {}, world.objects(), grid_of(glm::ivec3(n)));
+    const std::size_t visible = exact.count(flight, input.culling_view);
+    for (int n = 10; n <= length.finest; n += 10) {
+        GridPlanner planner({}, {}, {}, flight.objects(), grid_of(glm::ivec3(n)));
         FramePlan plan;
         std::vector<double> ms;
         for (int i = 0; i < 11; ++i) ms.push_back(plan_ms(planner, input, plan));
-        std::vector<bool> drawn(world.balls.size(), false);
-        for (const ObjectId object : plan.objects) drawn[index_of(object)] = true;
-        std::size_t missing = 0;
-        for (std::size_t i = 0; i < drawn.size(); ++i) missing += exact.seen(i) && !drawn[i] ? 1 : 0;
         print_row("resolution", glm::ivec3(n), n, ms, static_cast<double>(plan.objects.size()),
-                  static_cast<double>(visible), static_cast<double>(all.size()),
-                  static_cast<double>(planner.statistics().cells_reached), 0.0, missing);
+                  static_cast<double>(visible), static_cast<double>(count_in_view(input)),
+                  static_cast<double>(planner.statistics().cells_reached), 0.0, exact.missing(plan));
     }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto wanted = [&](const std::string& name) {
-        return argc == 1 || std::find(argv + 1, argv + argc, name) != argv + argc;
+    std::vector<std::string> names(argv + 1, argv + argc);
+    const bool quick = std::erase(names, "--quick") > 0;
+    const Length length = quick ? Length{500, 30, 11, 30} : Length{};
+    const auto wanted = [&](const char* name) {
+        return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
     };
     std::printf(
         "test,cells,x,plan_ms_mean,plan_ms_median,plan_ms_max,pvs,exact,in_view,cells_reached,volumes,"
         "missing\n");
     for (const glm::ivec3& cells : {glm::ivec3(50, 30, 50), glm::ivec3(100, 60, 100)}) {
-        if (wanted("hidden")) run_hidden(cells);
-        if (wanted("walk")) run_walk(cells);
+        if (wanted("hidden")) run_hidden(cells, length);
+        if (wanted("walk")) run_walk(cells, length);
         if (wanted("traversal")) run_traversal(cells);
     }
-    if (wanted("resolution")) run_resolution();
+    if (wanted("resolution")) run_resolution(length);
     return 0;
 }

@@ -4,11 +4,12 @@
 """Plots what was predicted against what was measured, for walks (`rhview walk --json`) and calibrations (`--csv`);
 makes the page of a comparison (`rhview compare --json`), which needs no matplotlib.
 
-usage: scripts/report.py FILE… -o FOLDER
+usage: scripts/report.py FILE… -o FOLDER [--front]
 
 Writes prediction.png (predicted against measured, one colour per file) and residuals.png (the relative residual of every
 frame, and against indices), and prints a line per file: median and 95th percentile of |predicted - measured| / measured.
-Of a comparison, one file alone: report.html, with the picture of FOLDER/scene if there is one.
+Of a comparison, one file alone: report.html, with the picture of FOLDER/scene if there is one; with --front also
+front.png, cost against the picture's error, of what `rhview compare --pareto` wrote.
 """
 
 import argparse
@@ -139,16 +140,41 @@ def write_page(page, file, folder):
     print(f"{folder / 'report.html'}: {len(page['runs'])} methods")
 
 
+def plot_front(page, file, target):
+    if not page.get("pareto"):
+        sys.exit(f"{file}: tells no front; write it with rhview compare --pareto")
+    load_matplotlib()
+    figure, all_axes = plt.subplots(1, len(report_page.FRONTS), figsize=(15, 5))
+    for axes, (field, unit) in zip(all_axes, report_page.FRONTS):
+        points, front = report_page.front_points(page, field)
+        positive = [p[2] for p in points if p[2] > report_page.ErrorAxis.NONE]
+        axes.plot([p[2] for p in front], [p[3] for p in front], color="grey", linewidth=1, linestyle="--")
+        for number, label, error, cost in points:
+            axes.scatter(error, cost, s=28, color=plt.get_cmap("turbo")((number + 0.5) / len(page["runs"])), label=label)
+        axes.set_xscale("symlog", linthresh=min(positive, default=1.0))
+        axes.set(xlabel="1 - SSIM, against everything at full detail", ylabel=unit, ylim=(0, None))
+    all_axes[-1].legend(fontsize="xx-small")
+    figure.suptitle(f"{page['runs'][0]['scene']['name']}: speed against error")
+    figure.tight_layout()
+    figure.savefig(target, dpi=110)
+    plt.close(figure)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("files", nargs="+", type=pathlib.Path, metavar="FILE",
                         help="walk JSON or calibration CSV (by its ending), or the JSON of one comparison")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, metavar="FOLDER")
+    parser.add_argument("--front", action="store_true", help="of a comparison: front.png, cost against error")
     options = parser.parse_args()
     comparison = read_comparison(options.files[0]) if len(options.files) == 1 else None
     if comparison is not None:
         write_page(comparison, options.files[0], options.output)
+        if options.front:
+            plot_front(comparison, options.files[0], options.output / "front.png")
         return
+    if options.front:
+        sys.exit("report: --front wants the JSON of one comparison")
     load_matplotlib()
     runs = [read(file) for file in options.files]
     options.output.mkdir(parents=True, exist_ok=True)

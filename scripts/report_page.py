@@ -30,7 +30,7 @@ figure { margin: 0; padding: .7rem; background: var(--card); border-radius: 6px;
 td:first-child { overflow-wrap: anywhere; white-space: normal; min-width: 7rem; }
 figcaption { font-weight: 600; font-size: .95rem; margin-bottom: .3rem; }
 svg { width: 100%; height: auto; display: block; } svg text { fill: var(--faint); font: 12px system-ui, sans-serif; }
-.grid { stroke: var(--line); stroke-width: 1; fill: none; } .series { fill: none; stroke-width: 1.7; stroke-linejoin: round; }
+.grid { stroke: var(--line); stroke-width: 1; fill: none; } .front { stroke: var(--faint); stroke-dasharray: 3 3; fill: none; } .series { fill: none; stroke-width: 1.7; stroke-linejoin: round; }
 .legend { display: flex; flex-wrap: wrap; gap: .2rem 1.1rem; margin: .6rem 0; font-size: .92rem; }
 .legend svg { width: 1.8rem; height: .7rem; display: inline-block; margin-right: .4rem; }
 pre { background: var(--card); padding: .7rem; white-space: pre-wrap; overflow-wrap: anywhere; border-radius: 6px; font-size: .85rem; }
@@ -38,6 +38,7 @@ dl { display: grid; grid-template-columns: max-content 1fr; gap: .15rem 1rem; ma
 """
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 250, 56, 10, 10, 40
+MOST_LINES = 12  # of a plot that can be read
 DASHES = ("", "6 3", "2 3")
 
 
@@ -150,6 +151,81 @@ def scatter(name, caption, x_label, y_label, points, diagonal=False, logarithmic
     return figure_of(name, caption, body)
 
 
+class ErrorAxis(Axis):
+    """Errors, logarithmic, with a place of its own for none at the left."""
+
+    NONE = 1e-9  # below: rounding of an SSIM of 1
+
+    def __init__(self, values):
+        super().__init__([v for v in values if v > self.NONE], LEFT + 45, WIDTH - RIGHT, True)
+        widen = max(0.0, 0.4 - 0.5 * (self.high - self.low))  # a factor of 6 at least, else no tick falls in
+        self.low, self.high = self.low - widen, self.high + widen
+
+    def at(self, value):
+        return super().at(value) if value > self.NONE else LEFT + 16
+
+    def ticks(self):
+        return [0.0] + super().ticks()
+
+
+def ssim_loss(run):
+    """1 - SSIM over the frames in which it was measured, else None."""
+    error = run["summary"].get("image_error")
+    return None if not error or error.get("ssim") is None else max(0.0, 1.0 - error["ssim"])
+
+
+FRONTS = (("frame_ms", "frame time, ms"), ("draw_calls", "draw calls"), ("indices", "indices"))
+
+
+def front_points(page, field):
+    """(number of the run, its label, error, cost) of all runs, and of those on the front by ascending error."""
+    points = [(number, run["label"], ssim_loss(run), run["summary"][field]["median"])
+              for number, run in enumerate(page["runs"]) if ssim_loss(run) is not None]
+    on_front = set(page["pareto"][field])
+    return points, sorted((p for p in points if p[1] in on_front), key=lambda p: (p[2], p[3]))
+
+
+def front_plot(page, field, unit):
+    points, front = front_points(page, field)
+    if not points:
+        return ""
+    costs = [p[3] for p in points]
+    x, y = ErrorAxis([p[2] for p in points]), Axis(costs, HEIGHT - BOTTOM, TOP, is_wide(costs))
+    body = frame_of(x, y, "1 - SSIM, against everything at full detail", unit)
+    line = " ".join(f"{x.at(p[2]):.1f},{y.at(p[3]):.1f}" for p in front)
+    body += f'<polyline class="front" points="{line}"/>'
+    for number, label, error, cost in points:
+        body += (f'<circle cx="{x.at(error):.1f}" cy="{y.at(cost):.1f}" r="4" fill-opacity=".8" '
+                 f'style="fill:var(--s{number % 8})"><title>{text_of(label)}: {short(cost)}, {short(error)}</title></circle>')
+    return figure_of(f"front_{field}", f"The front: {unit} against error", body)
+
+
+def errors_of(page):
+    """What was given up, for what: the table and the plots of the front, where the picture's error was measured."""
+    if not page.get("pareto"):
+        return ""
+    heads = ["method", *(f"{unit} (median)" for _, unit in FRONTS), "SSIM", "least SSIM", "PSNR, dB", "depth error, %",
+             "missing px a frame"]
+    rows = []
+    for run in page["runs"]:
+        error = run["summary"].get("image_error")
+        if not error:
+            continue
+        star = lambda field: "*" if run["label"] in page["pareto"][field] else ""
+        ssim = lambda field: "–" if error[field] is None else f"{error[field]:.5f}"
+        cells = [run["label"], *(short(run["summary"][field]["median"]) + star(field) for field, _ in FRONTS),
+                 ssim("ssim"), ssim("ssim_min"), "equal" if error["psnr_db"] is None else f'{error["psnr_db"]:.1f}',
+                 f'{100 * error["depth_mean"]:.4f}', short(error["missing_pixels"] / error["frames"])]
+        rows.append("<tr>" + "".join(f"<td>{text_of(c)}</td>" for c in cells) + "</tr>")
+    head = "".join(f"<th>{text_of(h)}</th>" for h in heads)
+    plots = "".join(front_plot(page, field, unit) for field, unit in FRONTS)
+    return (f'<h2>Speed against error</h2><div class="scroll"><table id="errors"><thead><tr>{head}</tr></thead><tbody>'
+            f'{"".join(rows)}</tbody></table></div><p class="faint">* on the front: no other has as little of this and of '
+            "1 - SSIM, and less of one. Errors are against everything at full detail: colours by PSNR and SSIM (Wang et al. "
+            "2004), depths as parts of the distance, missing where the depth differs in any bit.</p>"
+            f'{legend_of(page["runs"])}<div class="plots">{plots}</div>')
+
+
 def prediction_plot(runs):
     points = [(number, run["label"], frame["frame_ms"], frame["predicted_ms"])
               for number, run in enumerate(runs) for frame in run["per_frame"]
@@ -175,7 +251,7 @@ def interval_text(interval, digits=3):
 def table_of(page):
     reference = page["reference"]
     heads = ["method", "frame ms", "95 % interval", f"× {reference}", "95 % interval", "cull ms", "draw calls", "indices",
-             "queries", "predicted ms", "missing px"]
+             "V + 8000 N", "queries", "predicted ms", "missing px"]
     rows = []
     for run, compared in zip(page["runs"], page["comparison"]):
         summary = run["summary"]
@@ -184,7 +260,7 @@ def table_of(page):
         cells = [run["label"], f'{summary["frame_ms"]["median"]:.3f}', interval_text(compared["frame_ms"]),
                  f'{ratio["median"]:.3f}' if ratio else "–",
                  "–" if run["label"] == reference else interval_text(ratio), f'{summary["cull_ms"]["median"]:.3f}',
-                 median("draw_calls"), median("indices"), median("queries"), median("predicted_ms"),
+                 median("draw_calls"), median("indices"), median("modelled_indices"), median("queries"), median("predicted_ms"),
                  "not checked" if missing is None else str(missing["total"])]
         rows.append("<tr>" + "".join(f"<td>{text_of(c)}</td>" for c in cells) + "</tr>")
     head = "".join(f"<th>{text_of(h)}</th>" for h in heads)
@@ -236,6 +312,8 @@ def page_of(page, folder):
              plot_along_path("indices", "Indices submitted", "indices", runs, "indices"),
              plot_along_path("queries", "Occlusion queries", "queries", runs, "queries"),
              prediction_plot(runs), error_plot(runs)]
+    along = "" if len(runs) > MOST_LINES else (
+        f'<h2>Along the path</h2>{legend_of(runs)}<div class="plots">{"".join(plots)}</div>')
     name = text_of(scene["name"])
     return f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -246,7 +324,8 @@ def page_of(page, folder):
 <p class="faint">Medians over the frames; intervals of the median from order statistics, frames taken as independent. The
 interval of the frame time holds the path's ups and downs too; that of the ratio pairs frames of the same camera.</p>
 {picture_of(folder)}
-<h2>Along the path</h2>{legend_of(runs)}<div class="plots">{"".join(plots)}</div>
+{errors_of(page)}
+{along}
 <h2>Machine</h2>{machine_of(page)}
 <h2>Make it again</h2><pre>{text_of(page["command"])}</pre>
 </body></html>

@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
+#include "pareto.h"
 #include "statistics.h"
 
 namespace rhview::cli {
@@ -28,6 +31,7 @@ constexpr auto kFrameMs = [](const FrameRecord& f) { return f.frame_ms; };
 constexpr auto kCullMs = [](const FrameRecord& f) { return f.cull_ms; };
 constexpr auto kDraws = [](const FrameRecord& f) { return f.work.draw_calls; };
 constexpr auto kIndices = [](const FrameRecord& f) { return f.work.indices; };
+constexpr auto kModelled = [](const FrameRecord& f) { return modelled_indices(f); };
 constexpr auto kQueries = [](const FrameRecord& f) { return f.work.queries; };
 
 template <class Field>
@@ -52,7 +56,39 @@ Json comparison_json(const CompareReport& report, std::size_t run) {
             {"cull_ms_ratio", ratio(kCullMs)},
             {"draw_calls_ratio", ratio(kDraws)},
             {"indices_ratio", ratio(kIndices)},
+            {"modelled_ratio", ratio(kModelled)},
             {"queries_ratio", ratio(kQueries)}};
+}
+
+/// 1 - SSIM; NaN where it was not measured.
+double ssim_loss(const WalkReport& walk) {
+    const std::optional<ImageErrorSummary> error = walk.image_error();
+    return error && error->ssim ? 1.0 - error->ssim->mean : std::numeric_limits<double>::quiet_NaN();
+}
+
+template <class Field>
+std::vector<std::size_t> front_of(const CompareReport& report, Field field) {
+    std::vector<double> costs, errors;
+    for (const CompareReport::Run& run : report.runs) {
+        costs.push_back(median_of(*run.walk, field));
+        errors.push_back(ssim_loss(*run.walk));
+    }
+    return pareto_front(costs, errors);
+}
+
+template <class Field>
+Json front_json(const CompareReport& report, Field field) {
+    Json labels = Json::array();
+    for (const std::size_t run : front_of(report, field)) labels.push_back(report.runs[run].label);
+    return labels;
+}
+
+Json pareto_json(const CompareReport& report) {
+    if (!report.pareto) return nullptr;
+    return {{"error", "1 - ssim"},
+            {"frame_ms", front_json(report, kFrameMs)},
+            {"draw_calls", front_json(report, kDraws)},
+            {"indices", front_json(report, kIndices)}};
 }
 
 std::string interval_text(const std::optional<MedianInterval>& interval, int decimals) {
@@ -69,17 +105,18 @@ std::string padded(const std::string& text, std::size_t width) {
 }
 
 std::string medians_table(const CompareReport& report, std::size_t label_width) {
-    std::string table =
-        fmt::format("  {:<{}}{:>10}{:>20}{:>10}{:>12}{:>14}{:>10}{:>10}\n", "median", label_width, "frame ms",
-                    "95 % interval", "cull ms", "draw calls", "indices", "queries", "missing");
+    std::string table = fmt::format("  {:<{}}{:>10}{:>20}{:>10}{:>12}{:>14}{:>14}{:>10}{:>10}\n", "median",
+                                    label_width, "frame ms", "95 % interval", "cull ms", "draw calls",
+                                    "indices", "V + 8000 N", "queries", "missing");
     for (const CompareReport::Run& run : report.runs) {
         const WalkReport& walk = *run.walk;
         const bool checked = walk.checked_frames() > 0;
-        table += fmt::format(
-            "  {:<{}}{:>10.3f}{}{:>10.3f}{:>12.1f}{:>14.0f}{:>10.1f}{:>10}\n", run.label, label_width,
-            median_of(walk, kFrameMs), padded(interval_text(median_interval(column(walk, kFrameMs)), 3), 20),
-            median_of(walk, kCullMs), median_of(walk, kDraws), median_of(walk, kIndices),
-            median_of(walk, kQueries), checked ? std::to_string(walk.missing_pixels()) : "-");
+        table += fmt::format("  {:<{}}{:>10.3f}{}{:>10.3f}{:>12.1f}{:>14.0f}{:>14.0f}{:>10.1f}{:>10}\n",
+                             run.label, label_width, median_of(walk, kFrameMs),
+                             padded(interval_text(median_interval(column(walk, kFrameMs)), 3), 20),
+                             median_of(walk, kCullMs), median_of(walk, kDraws), median_of(walk, kIndices),
+                             median_of(walk, kModelled), median_of(walk, kQueries),
+                             checked ? std::to_string(walk.missing_pixels()) : "-");
     }
     return table;
 }
@@ -87,8 +124,8 @@ std::string medians_table(const CompareReport& report, std::size_t label_width) 
 std::string ratios_table(const CompareReport& report, std::size_t label_width) {
     const std::string& reference = report.runs[report.reference].label;
     std::string table =
-        fmt::format("  {:<{}}{:>10}{:>20}{:>10}{:>12}{:>14}{:>10}\n", "over " + reference, label_width,
-                    "frame ms", "95 % interval", "cull ms", "draw calls", "indices", "queries");
+        fmt::format("  {:<{}}{:>10}{:>20}{:>10}{:>12}{:>14}{:>14}{:>10}\n", "over " + reference, label_width,
+                    "frame ms", "95 % interval", "cull ms", "draw calls", "indices", "V + 8000 N", "queries");
     for (std::size_t i = 0; i < report.runs.size(); ++i) {
         if (i == report.reference) continue;
         const WalkReport &walk = *report.runs[i].walk, &base = *report.runs[report.reference].walk;
@@ -98,11 +135,37 @@ std::string ratios_table(const CompareReport& report, std::size_t label_width) {
         };
         const std::optional<MedianInterval> time = report.time_ratio(i, report.reference);
         table +=
-            fmt::format("  {:<{}}{:>10}{}{:>10}{:>12}{:>14}{:>10}\n", report.runs[i].label, label_width,
+            fmt::format("  {:<{}}{:>10}{}{:>10}{:>12}{:>14}{:>14}{:>10}\n", report.runs[i].label, label_width,
                         time ? fmt::format("{:.3f}", time->median) : "-", padded(interval_text(time, 3), 20),
-                        ratio(kCullMs), ratio(kDraws), ratio(kIndices), ratio(kQueries));
+                        ratio(kCullMs), ratio(kDraws), ratio(kIndices), ratio(kModelled), ratio(kQueries));
     }
     return table;
+}
+
+/// What is given up, and for what; a star where nothing else has less of both.
+std::string pareto_table(const CompareReport& report, std::size_t label_width) {
+    std::string table =
+        fmt::format("  {:<{}}{:>10}{:>12}{:>14}{:>10}{:>10}{:>12}{:>10}\n", "error", label_width, "frame ms",
+                    "draw calls", "indices", "SSIM", "PSNR dB", "depth %", "missing %");
+    const auto fronts =
+        std::array{front_of(report, kFrameMs), front_of(report, kDraws), front_of(report, kIndices)};
+    for (std::size_t i = 0; i < report.runs.size(); ++i) {
+        const WalkReport& walk = *report.runs[i].walk;
+        const std::optional<ImageErrorSummary> error = walk.image_error();
+        if (!error) continue;
+        const auto starred = [&](std::size_t front, const std::string& text) {
+            return text + (std::ranges::find(fronts[front], i) != fronts[front].end() ? "*" : " ");
+        };
+        const double pixels = static_cast<double>(walk.width) * walk.height * error->frames;
+        table += fmt::format(
+            "  {:<{}}{:>10}{:>12}{:>14}{:>10}{:>10.1f}{:>12.4f}{:>10.4f}\n", report.runs[i].label,
+            label_width, starred(0, fmt::format("{:.3f}", median_of(walk, kFrameMs))),
+            starred(1, fmt::format("{:.1f}", median_of(walk, kDraws))),
+            starred(2, fmt::format("{:.0f}", median_of(walk, kIndices))),
+            error->ssim ? fmt::format("{:.5f}", error->ssim->mean) : "-", gl::psnr_db(error->colour_mse),
+            100.0 * error->depth.mean, 100.0 * static_cast<double>(error->missing_pixels) / pixels);
+    }
+    return table + "  * on the front: no other has as little of this and of 1 - SSIM, and less of one\n";
 }
 
 std::string verdict(const CompareReport& report) {
@@ -152,6 +215,7 @@ std::string to_json(const CompareReport& report) {
     json["reference"] = report.runs[report.reference].label;
     const std::optional<std::size_t> winner = report.winner();
     json["winner"] = winner ? Json(report.runs[*winner].label) : Json(nullptr);
+    json["pareto"] = pareto_json(report);
     json["comparison"] = Json::array();
     json["runs"] = Json::array();
     for (std::size_t i = 0; i < report.runs.size(); ++i) {
@@ -189,6 +253,7 @@ std::string to_table(const CompareReport& report) {
         report.runs.size(), report.by_frame ? "taking turns frame by frame" : "one walk after the other",
         first.frames.size(), first.width, first.height, first.device.renderer);
     table += medians_table(report, width) + "\n";
+    if (report.pareto) table += pareto_table(report, width) + "\n";
     if (report.runs.size() > 1) table += ratios_table(report, width) + "\n" + verdict(report);
     return table;
 }

@@ -22,6 +22,7 @@ struct CompareReport {
     std::vector<Run> runs;
     std::size_t reference = 0;  ///< the run that ratios refer to
     bool by_frame = true;       ///< methods took turns frame by frame, else walk by walk
+    bool pareto = false;        ///< the picture's errors were measured, and the fronts are told
     std::string command;        ///< that makes it again
 
     /// Frame times of a run over those of another, frame by frame. Pairs share a camera, so that the interval

@@ -9,6 +9,7 @@
 #include "compare_report.h"
 #include "method_list.h"
 #include "output_file.h"
+#include "pareto.h"
 #include "report_page.h"
 #include "verbs.h"
 #include "walk_session.h"
@@ -69,15 +70,22 @@ std::size_t reference_of(const std::vector<ListedMethod>& methods) {
     return found == methods.end() ? 0 : static_cast<std::size_t>(found - methods.begin());
 }
 
+std::string method_list(const CompareOptions& options, bool levels) {
+    if (!options.pareto) return options.methods.value_or(kDefaultMethods);
+    return (options.methods ? *options.methods + "," : "") + pareto_methods(levels);
+}
+
 /// The methods, validated; the reference makes the report's picture.
-Result<std::vector<ListedMethod>> list_methods(const CompareOptions& options) {
+Result<std::vector<ListedMethod>> list_methods(const CompareOptions& options, bool levels) {
     if (options.order != "frame" && options.order != "run")
         return Error{fmt::format("--order {}: unknown; write frame or run", options.order)};
-    Result<std::vector<ListedMethod>> methods = parse_methods(options.methods, options.walk);
+    Result<std::vector<ListedMethod>> methods = parse_methods(method_list(options, levels), options.walk);
     if (!methods) return methods.error();
-    for (ListedMethod& method : *methods)
+    for (ListedMethod& method : *methods) {
+        if (options.pareto && method.walk.image_error_every == 0) method.walk.image_error_every = 1;
         if (const Result<WalkWishes> wishes = parse_wishes(method.walk); !wishes)
             return Error{fmt::format("--methods {}: {}", method.label, wishes.error().message)};
+    }
     if (options.report) {
         WalkOptions& pictured = (*methods)[reference_of(*methods)].walk;
         pictured.images = *options.report / kPicture;
@@ -121,6 +129,7 @@ CompareReport report_of(const CompareOptions& options, const std::vector<ListedM
     for (std::size_t i = 0; i < methods.size(); ++i)
         report.runs.push_back({methods[i].label, &sessions[i].report()});
     report.reference = reference_of(methods);
+    report.pareto = options.pareto;
     report.by_frame = options.order == "frame";
     report.command = options.command;
     return report;
@@ -129,7 +138,7 @@ CompareReport report_of(const CompareOptions& options, const std::vector<ListedM
 }  // namespace
 
 Result<int> run_compare(const CompareOptions& options) {
-    const Result<std::vector<ListedMethod>> methods = list_methods(options);
+    Result<std::vector<ListedMethod>> methods = list_methods(options, false);
     if (!methods) return methods.error();
     Result<WalkWishes> wishes = parse_wishes(methods->front().walk);
     if (!wishes) return wishes.error();
@@ -142,6 +151,8 @@ Result<int> run_compare(const CompareOptions& options) {
         common.lod_error_px = std::max(common.lod_error_px, method.walk.lod_error_px);
     const Result<WalkGround> ground = prepare_ground(common, std::move(wishes).value(), progress);
     if (!ground) return ground.error();
+    if (!ground->chains.empty()) methods = list_methods(options, true);
+    if (!methods) return methods.error();
     std::vector<WalkSession> sessions;
     for (const ListedMethod& method : *methods) {
         progress.say("building " + method.label);

@@ -15,12 +15,11 @@
 namespace rhview::cli {
 namespace {
 
-constexpr double kCells = 100.0 * 60.0 * 100.0;
 constexpr int kMostCells = 400;  ///< along an axis
 
-glm::ivec3 cells_for(const Aabb& bounds) {
+glm::ivec3 cells_for(const Aabb& bounds, double cells) {
     const glm::dvec3 extent = glm::max(glm::dvec3(bounds.extent()), glm::dvec3(1e-3));
-    const double side = std::cbrt(extent.x * extent.y * extent.z / kCells);
+    const double side = std::cbrt(extent.x * extent.y * extent.z / cells);
     const glm::dvec3 wanted = glm::round(extent / side);
     return glm::ivec3(glm::clamp(wanted, glm::dvec3(1.0), glm::dvec3(kMostCells)));
 }
@@ -108,7 +107,7 @@ std::vector<GridObject> objects_of(const Scene& scene, double frame_seconds) {
 
 }  // namespace
 
-std::unique_ptr<GridPlanner> make_grid_method(const Scene& scene, double frame_seconds) {
+std::unique_ptr<GridPlanner> make_grid_method(const Scene& scene, double cells, double frame_seconds) {
     std::vector<GridStatic> statics;
     for (const StaticObject& object : static_objects(scene)) statics.push_back({object.range, object.bounds});
     std::vector<bool> occludes;
@@ -116,7 +115,7 @@ std::unique_ptr<GridPlanner> make_grid_method(const Scene& scene, double frame_s
         occludes.push_back(!scene.materials[index_of(batch.material)].alpha_tested);
     GridOptions options;
     options.bounds = scene.bounds();
-    options.cells = cells_for(options.bounds);
+    options.cells = cells_for(options.bounds, cells);
     return std::make_unique<GridPlanner>(scene.triangle_batches(), occludes, std::move(statics),
                                          objects_of(scene, frame_seconds), options);
 }

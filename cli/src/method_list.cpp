@@ -45,6 +45,8 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
         if (!read_number(value, walk.replica_budget) ||
             !(walk.replica_budget >= 0.0 && walk.replica_budget <= 1000.0))
             return wrong("a number from 0 to 1000");
+    } else if (name == "visible-pixels") {
+        if (!read_number(value, walk.visible_pixels)) return wrong("a whole number of pixels");
     } else if (name == "lod-error") {
         if (!read_number(value, walk.lod_error_px) ||
             !(walk.lod_error_px >= 0.0 && walk.lod_error_px <= 1000.0))
@@ -57,10 +59,12 @@ Status read_option(const std::string& label, const std::string& option, WalkOpti
         walk.hierarchy = value;
     } else if (name == "submission") {
         walk.submission = value;
+    } else if (is_tune_key(name)) {
+        walk.tune += (walk.tune.empty() ? "" : ",") + option;
     } else {
         return Error{
             fmt::format("--methods {}: there is no option '{}'; a method has leaf, replica-budget, mode, "
-                        "occlusion, hierarchy, submission and lod-error",
+                        "visible-pixels, occlusion, hierarchy, submission, lod-error and the keys of --tune",
                         label, name)};
     }
     return success();
@@ -80,9 +84,10 @@ Result<std::vector<ListedMethod>> parse_methods(const std::string& list, const W
             return Error{fmt::format("--methods {}: {} is listed twice; list it once", list, label)};
         ListedMethod method{label, common};
         method.walk.method = parts[0];
-        if (parts[0] != "rhview") method.walk.mode = "exact";
+        if (parts[0] != "rhview") method.walk.mode = "exact", method.walk.visible_pixels = 0;
         if (!parts[0].starts_with("rhview")) method.walk.occlusion = "auto";
-        if (!is_interactive(parts[0])) method.walk.hierarchy = "auto", method.walk.tune.clear();
+        if (!has_hierarchy(parts[0])) method.walk.hierarchy = "auto";
+        if (!has_tune(parts[0])) method.walk.tune.clear();
         for (std::size_t i = 1; i < parts.size(); ++i)
             if (Status status = read_option(label, parts[i], method.walk); !status) return status.error();
         methods.push_back(std::move(method));

@@ -18,9 +18,9 @@ struct ListedMethod {
 };
 
 /// The methods of `list`, separated by commas; behind a colon each, its own options: leaf, replica-budget,
-/// mode, occlusion, hierarchy, submission, lod-error. What is not given is as in `common`; mode and occlusion
-/// of `common` hold for the methods that ask the device. Errors: an unknown name, option or value, a method
-/// listed twice.
+/// mode, visible-pixels, occlusion, hierarchy, submission, lod-error, and the keys of --tune. What is not
+/// given is as in `common`; mode and occlusion of `common` hold for the methods that ask the device. Errors:
+/// an unknown name, option or value, a method listed twice.
 Result<std::vector<ListedMethod>> parse_methods(const std::string& list, const WalkOptions& common);
 
 }  // namespace rhview::cli

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "rhview/gl/answer_costs.h"
@@ -45,6 +46,7 @@ Result<std::optional<OcclusionOptions>> choose_occlusion(const WalkOptions& opti
     occlusion.emplace();
     occlusion->costs = *costs;
     occlusion->settings.mode = options.mode == "latent" ? OcclusionMode::Latent : OcclusionMode::Exact;
+    occlusion->settings.visible_samples = std::max(1u, options.visible_pixels);
     occlusion->shown_index_ns =
         constants->profile.c1_ns + constants->profile.primitive_ns.value_or(0.0) / 3.0;
     return occlusion;

@@ -35,6 +35,7 @@ constexpr std::array kSettings{
             [](RivalOptions& o, double v) { o.chc_plus_plus.visible_frames = whole(v); }},
     Setting{"tight-depth", 0, 64, [](RivalOptions& o, double v) { o.chc_plus_plus.tight.depth = whole(v); }},
     Setting{"tight-area", 0, 1e6, [](RivalOptions& o, double v) { o.chc_plus_plus.tight.area = v; }},
+    Setting{"cells", 1, 64e6, [](RivalOptions& o, double v) { o.grid_cells = v; }},
     Setting{"levels", 1, 3, [](RivalOptions& o, double v) { o.grid.levels = whole(v); }},
     Setting{"top-cells", 1, 512, [](RivalOptions& o, double v) { o.grid.top_cells = whole(v); }},
     Setting{"inner-cells", 2, 64, [](RivalOptions& o, double v) { o.grid.inner_cells = whole(v); }},
@@ -99,6 +100,18 @@ Status build_octree_tree(const Scene& scene, const BakedOctree* baked, PreparedR
 
 bool is_interactive(std::string_view method) {
     return method == "chc" || method == "chc++" || method == "nested-grid";
+}
+
+bool is_tune_key(std::string_view key) {
+    return key == "visible-query" || std::ranges::find(kSettings, key, &Setting::key) != kSettings.end();
+}
+
+bool has_hierarchy(std::string_view method) {
+    return method == "chc" || method == "chc++";
+}
+
+bool has_tune(std::string_view method) {
+    return method == "chc++" || method == "nested-grid" || method == "grid";
 }
 
 Result<RivalOptions> parse_rival(std::string_view hierarchy, std::string_view tune) {

@@ -21,17 +21,23 @@ namespace rhview::cli {
 /// Whether `method` draws and asks in turns: chc, chc++ or nested-grid.
 bool is_interactive(std::string_view method);
 
-/// What the user says about such a method.
+/// What the user says about such a method, and about `grid`.
 struct RivalOptions {
     std::string hierarchy = "auto";  ///< of chc and chc++: "bvh", "octree", or what suits the scene
     std::optional<std::uint32_t> leaf_triangles;
     ChcPlusPlusOptions chc_plus_plus;
     NestedGridOptions grid;
+    double grid_cells = 100.0 * 60.0 * 100.0;  ///< of `grid`, about
 };
 
 /// `tune` is KEY=VALUE,… with the keys batch, visible-frames, tight-depth, tight-area, visible-query,
-/// levels, top-cells and inner-cells.
+/// levels, top-cells, inner-cells and cells.
 Result<RivalOptions> parse_rival(std::string_view hierarchy, std::string_view tune);
+
+bool is_tune_key(std::string_view key);
+/// Whether a method heeds `hierarchy`, and whether it has parameters to tune.
+bool has_hierarchy(std::string_view method);
+bool has_tune(std::string_view method);
 
 struct PreparedRival {
     std::unique_ptr<InteractiveMethod> method;

@@ -49,6 +49,8 @@ struct WalkOptions {
     int frames = 120;
     int warmup = 8;
     int repeats = 1;
+    std::optional<double> rate_hz;      ///< frames per second of the path; else all of it in `frames`
+    int excerpts = 1;                   ///< of the path, with `rate_hz`
     std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
     double replica_budget = 1.0;
     InstancesWanted instances;
@@ -57,6 +59,8 @@ struct WalkOptions {
     bool check = false;
     int check_every = 1;
     bool visible_set = false;
+    std::uint32_t visible_pixels = 0;  ///< latent mode: what shows fewer is left out
+    int image_error_every = 0;         ///< measure the picture's error in every so many frames; 0: in none
     int images_every = 30;
     std::optional<int> freeze_culling;
     std::optional<std::filesystem::path> json;
@@ -64,13 +68,23 @@ struct WalkOptions {
     std::optional<std::filesystem::path> images;
 };
 
+inline constexpr const char* kDefaultMethods = "frustum,octree,nested-grid,chc++,rhview-seed,rhview";
+
 struct CompareOptions {
     WalkOptions walk;  ///< what all methods have in common
-    std::string methods = "frustum,octree,nested-grid,chc++,rhview-seed,rhview";
+    /// Absent: a rival of each kind, or with `pareto` none but those that it adds.
+    std::optional<std::string> methods;
+    bool pareto = false;  ///< rhview with what it may give up, against the picture's error
     std::string order = "frame";
     std::optional<std::filesystem::path> report;
     std::string command;  ///< as it was typed, for the report
     std::filesystem::path program;
+};
+
+struct ViewOptions {
+    WalkOptions walk;
+    std::optional<std::filesystem::path> script;
+    std::filesystem::path folder = ".";  ///< where screenshots and recordings go
 };
 
 struct BakeOptions {
@@ -92,5 +106,7 @@ Result<int> run_calibrate(const CalibrateOptions& options);
 Result<int> run_walk(const WalkOptions& options);
 Result<int> run_compare(const CompareOptions& options);
 Result<int> run_bake(const BakeOptions& options);
+/// An error in a build without the viewer.
+Result<int> run_view(const ViewOptions& options);
 
 }  // namespace rhview::cli

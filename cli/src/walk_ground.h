@@ -3,9 +3,12 @@
 
 #pragma once
 
+#include <memory>
+
 #include "constants.h"
 #include "picture_size.h"
 #include "progress.h"
+#include "reference_frame.h"
 #include "rhview/gl/context.h"
 #include "scene_source.h"
 #include "verbs.h"
@@ -22,6 +25,7 @@ struct WalkGround {
     double settle_ms = 0.0;           ///< to choose and flatten instances
     std::vector<LodChain> chains;     ///< levels of detail by mesh; empty: nobody wants any, or nothing moves
     std::optional<double> chains_ms;  ///< to build those; absent: they were not built
+    std::unique_ptr<ReferenceFrame> reference = std::make_unique<ReferenceFrame>();  ///< the last one drawn
 };
 
 /// The size and the constants that `options` ask for.
@@ -35,5 +39,8 @@ Result<WalkWishes> parse_wishes(const WalkOptions& options);
 /// Makes a context without a window, loads the scene, measures what is not known. A warning about the
 /// constants goes to standard error.
 Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, Progress& progress);
+/// The same in a context that is there already.
+Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, gl::Context context,
+                                  Progress& progress);
 
 }  // namespace rhview::cli

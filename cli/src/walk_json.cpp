@@ -40,6 +40,31 @@ Json missing_pixels_json(const WalkReport& report) {
             {"checked_frames", report.checked_frames()}};
 }
 
+/// Absent where both pictures are equal: JSON has no word for infinite.
+Json psnr_json(double colour_mse) {
+    return colour_mse > 0.0 ? Json(gl::psnr_db(colour_mse)) : Json(nullptr);
+}
+
+Json image_error_json(const std::optional<gl::ImageDifference>& error) {
+    if (!error) return nullptr;
+    return {{"missing_pixels", error->missing_pixels}, {"depth_mean", error->depth.mean},
+            {"depth_max", error->depth.greatest},      {"colour_mse", error->colour_mse},
+            {"psnr_db", psnr_json(error->colour_mse)}, {"ssim", or_null(error->ssim)}};
+}
+
+Json image_error_json(const std::optional<ImageErrorSummary>& error) {
+    if (!error) return nullptr;
+    const bool has_ssim = error->ssim.has_value();
+    return {{"frames", error->frames},
+            {"missing_pixels", error->missing_pixels},
+            {"depth_mean", error->depth.mean},
+            {"depth_max", error->depth.greatest},
+            {"colour_mse", error->colour_mse},
+            {"psnr_db", psnr_json(error->colour_mse)},
+            {"ssim", has_ssim ? Json(error->ssim->mean) : Json(nullptr)},
+            {"ssim_min", has_ssim ? Json(error->least_ssim) : Json(nullptr)}};
+}
+
 Json reveal_frames_json(const WalkReport& report) {
     if (!report.reveal_frames) return nullptr;
     if (report.reveal_frames->empty()) return {{"items", 0}};
@@ -170,6 +195,8 @@ Json summary_json(const WalkReport& report) {
     summary["draw_calls"] = statistics(report, [](const FrameRecord& f) { return f.work.draw_calls; });
     summary["sub_draws"] = statistics(report, [](const FrameRecord& f) { return f.work.sub_draws; });
     summary["indices"] = statistics(report, [](const FrameRecord& f) { return f.work.indices; });
+    summary["modelled_indices"] =
+        statistics(report, [](const FrameRecord& f) { return modelled_indices(f); });
     summary["queries"] = statistics(report, [](const FrameRecord& f) { return f.work.queries; });
     add_occlusion(report, summary);
     const bool has_set = !report.frames.empty() && report.frames.front().visible_set_indices.has_value();
@@ -198,25 +225,28 @@ Json summary_json(const WalkReport& report) {
         has_objects ? statistics(report, [](const FrameRecord& f) { return f.lod_error_px; }) : Json(nullptr);
     summary["budget"] = budget_json(report);
     summary["missing_pixels"] = missing_pixels_json(report);
+    summary["image_error"] = image_error_json(report.image_error());
     summary["reveal_frames"] = reveal_frames_json(report);
     summary["plan_hash"] = fmt::format("{:016x}", report.plan_hash);
     return summary;
 }
 
-Json occlusion_json(const std::optional<OcclusionRecord>& o) {
+/// What is drawn and asked in turns hangs on no query, and no model decided about it.
+Json occlusion_json(const WalkReport& report, const std::optional<OcclusionRecord>& o) {
     if (!o) return nullptr;
+    const auto planned = [&](auto value) { return report.in_steps ? Json(nullptr) : Json(value); };
     return {{"candidates", o->candidates},
             {"waits", o->waits},
             {"boxes", o->boxes},
             {"hidden", o->hidden},
-            {"box_pass_queries", o->box_pass_queries},
-            {"conditional_draws", o->conditional_draws},
-            {"conditional_ranges", o->conditional_ranges},
-            {"executed_ranges", o->executed_ranges},
-            {"skipped_indices", o->skipped_indices},
-            {"query_ms", o->query_ms},
-            {"exploration_ms", o->exploration_ms},
-            {"saved_ms", o->saved_ms}};
+            {"box_pass_queries", planned(o->box_pass_queries)},
+            {"conditional_draws", planned(o->conditional_draws)},
+            {"conditional_ranges", planned(o->conditional_ranges)},
+            {"executed_ranges", planned(o->executed_ranges)},
+            {"skipped_indices", planned(o->skipped_indices)},
+            {"query_ms", planned(o->query_ms)},
+            {"exploration_ms", planned(o->exploration_ms)},
+            {"saved_ms", planned(o->saved_ms)}};
 }
 
 }  // namespace
@@ -239,6 +269,7 @@ std::string to_json(const WalkReport& report) {
     json["profile"]["answer_costs"] = answer_costs_json(report.query_costs);
     json["method"] = report.method;
     json["mode"] = report.mode;
+    json["visible_pixels"] = report.visible_pixels;
     json["submission"] = report.submission;
     json["occlusion"] = report.occlusion;
     json["leaf"] = or_null(report.leaf);
@@ -274,7 +305,7 @@ std::string to_json(const WalkReport& report) {
                                      {"fragments", counted(f.work.fragments)},
                                      {"passed_samples", counted(f.work.passed_samples)},
                                      {"queries", count(f.work.queries)},
-                                     {"occlusion", occlusion_json(f.occlusion)},
+                                     {"occlusion", occlusion_json(report, f.occlusion)},
                                      {"lod_error_px", has_objects ? Json(f.lod_error_px) : Json(nullptr)},
                                      {"budget", frame_budget_json(f.budget)},
                                      {"nodes_visited", f.nodes_visited},
@@ -285,7 +316,8 @@ std::string to_json(const WalkReport& report) {
                                      {"running_predicted_ms", or_null(f.running_predicted_ms)},
                                      {"visible_set_indices", or_null(f.visible_set_indices)},
                                      {"missing_pixels", or_null(f.missing_pixels)},
-                                     {"late_items", or_null(f.late_items)}});
+                                     {"late_items", or_null(f.late_items)},
+                                     {"image_error", image_error_json(f.image_error)}});
     // A file name need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -28,6 +28,16 @@ std::string table_row(const char* name, int decimals, const std::vector<double>&
                        decimals, s.p95, decimals, s.max, decimals);
 }
 
+std::string image_error_line(const WalkReport& report) {
+    const std::optional<ImageErrorSummary> error = report.image_error();
+    if (!error) return "";
+    const std::string ssim =
+        error->ssim ? fmt::format("SSIM {:.5f} (least {:.5f}), ", error->ssim->mean, error->least_ssim) : "";
+    return fmt::format("  image error in {} frame{}: {}PSNR {:.1f} dB, depth {:.4f} % of the distance\n",
+                       error->frames, error->frames == 1 ? "" : "s", ssim, gl::psnr_db(error->colour_mse),
+                       100.0 * error->depth.mean);
+}
+
 std::string timing_line(const WalkReport& report) {
     if (report.in_steps) return "  no prediction: the model has no price for waiting\n";
     if (!report.profile) return fmt::format("  no prediction: {}\n", report.why_no_profile);
@@ -82,6 +92,33 @@ std::uint64_t WalkReport::missing_pixels() const {
     std::uint64_t total = 0;
     for (const FrameRecord& frame : frames) total += frame.missing_pixels.value_or(0);
     return total;
+}
+
+double modelled_indices(const FrameRecord& frame) {
+    constexpr double kIndicesPerDraw = 8000.0;
+    return frame.work.indices + kIndicesPerDraw * frame.work.draw_calls;
+}
+
+std::optional<ImageErrorSummary> WalkReport::image_error() const {
+    ImageErrorSummary sum;
+    std::vector<double> ssim;
+    for (const FrameRecord& frame : frames) {
+        if (!frame.image_error) continue;
+        const gl::ImageDifference& error = *frame.image_error;
+        ++sum.frames;
+        sum.missing_pixels += error.missing_pixels;
+        sum.depth.mean += error.depth.mean;
+        sum.depth.greatest = std::max(sum.depth.greatest, error.depth.greatest);
+        sum.colour_mse += error.colour_mse;
+        if (error.ssim) ssim.push_back(*error.ssim);
+    }
+    if (sum.frames == 0) return {};
+    sum.depth.mean /= sum.frames;
+    sum.colour_mse /= sum.frames;
+    if (ssim.empty()) return sum;
+    sum.ssim = summarise(ssim);
+    sum.least_ssim = *std::ranges::min_element(ssim);
+    return sum;
 }
 
 std::string instancing_text(const InstancingReport& report) {
@@ -169,6 +206,7 @@ std::string to_table(const WalkReport& report) {
         of("indices skipped", 0,
            [](const OcclusionRecord& o, const FrameRecord&) { return o.skipped_indices; });
     }
+    row("V + 8000 N", 0, [](const FrameRecord& f) { return modelled_indices(f); });
     row("nodes visited", 0, [](const FrameRecord& f) { return f.nodes_visited; });
     if (report.scene.dynamic_objects > 0)
         row("visible objects", 1, [](const FrameRecord& f) { return f.visible_objects; });
@@ -195,6 +233,7 @@ std::string to_table(const WalkReport& report) {
     if (const int checked = report.checked_frames(); checked > 0)
         table += fmt::format("  missing pixels: {} in {} checked frame{}\n", report.missing_pixels(), checked,
                              checked == 1 ? "" : "s");
+    table += image_error_line(report);
     table += reveal_frames_line(report);
     return table;
 }

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "rhview/gl/image_difference.h"
 #include "rhview/scenes/scene.h"
 #include "rhview/timing_model/profile.h"
+#include "statistics.h"
 
 namespace rhview::cli {
 
@@ -53,8 +55,22 @@ struct FrameRecord {
     std::optional<BudgetRecord> budget;
     std::optional<std::uint64_t> visible_set_indices;  ///< of the leaves that show a pixel
     std::optional<std::uint64_t> missing_pixels;
-    std::optional<std::uint64_t> late_items;  ///< leaves and objects that lack a pixel; latent mode
+    std::optional<std::uint64_t> late_items;         ///< leaves and objects that lack a pixel; latent mode
+    std::optional<gl::ImageDifference> image_error;  ///< from everything at full detail
 };
+
+/// The picture's error over the frames in which it was measured.
+struct ImageErrorSummary {
+    int frames = 0;
+    std::uint64_t missing_pixels = 0;
+    gl::DepthDifference depth;  ///< the mean of means, the greatest of all
+    double colour_mse = 0.0;    ///< mean
+    std::optional<Statistics> ssim;
+    double least_ssim = 1.0;
+};
+
+/// V + 8000·N: a frame's price, in indices, where a draw call costs as much as 8,000 of them.
+double modelled_indices(const FrameRecord& frame);
 
 /// One method along one path: the run of `rhview.walk/1`.
 struct WalkReport {
@@ -112,6 +128,7 @@ struct WalkReport {
     std::optional<std::vector<double>> reveal_frames;
     std::string method;
     std::string mode;
+    std::uint32_t visible_pixels = 0;  ///< below which latent mode leaves out what it saw
     std::string submission;
     std::optional<std::uint32_t> leaf;
     int width = 0;
@@ -125,6 +142,8 @@ struct WalkReport {
     [[nodiscard]] int frames_within_reach() const;
     [[nodiscard]] int frames_within_budget() const;
     [[nodiscard]] std::uint64_t missing_pixels() const;
+    /// Absent where no frame's was measured.
+    [[nodiscard]] std::optional<ImageErrorSummary> image_error() const;
 };
 
 std::string to_json(const WalkReport& report);

@@ -18,11 +18,12 @@
 namespace rhview {
 namespace {
 
-using RecipeTable = std::array<const SceneRecipe*, 8>;
+using RecipeTable = std::array<const SceneRecipe*, 9>;
 
 const RecipeTable& recipes() {
-    static const RecipeTable table{&town_recipe(), &plant_recipe(), &indoor_recipe(), &farm_recipe(),
-                                   &city_recipe(), &crowd_recipe(), &swarm_recipe(),  &soup_recipe()};
+    static const RecipeTable table{&town_recipe(),  &plant_recipe(),   &indoor_recipe(),
+                                   &farm_recipe(),  &city_recipe(),    &crowd_recipe(),
+                                   &swarm_recipe(), &spheres_recipe(), &soup_recipe()};
     return table;
 }
 

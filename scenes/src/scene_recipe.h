@@ -37,6 +37,7 @@ const SceneRecipe& farm_recipe();
 const SceneRecipe& city_recipe();
 const SceneRecipe& crowd_recipe();
 const SceneRecipe& swarm_recipe();
+const SceneRecipe& spheres_recipe();
 const SceneRecipe& soup_recipe();
 
 inline constexpr std::int64_t kLargestSeed = 4'294'967'295;

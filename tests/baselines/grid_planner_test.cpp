@@ -11,7 +11,8 @@
 #include <set>
 
 #include "allocations.h"
-#include "ball_world.h"
+#include "sphere_objects.h"
+#include "uniform.h"
 
 namespace rhview {
 namespace {
@@ -35,15 +36,29 @@ GridOptions with_cells(const glm::ivec3& cells, const Aabb& bounds) {
     return options;
 }
 
+/// `count` spheres, half as large or more, of which the first `moving` fly; a plan a second.
+SphereWorld spheres_in(const glm::dvec3& size, std::size_t count, std::size_t moving, double radius,
+                       double step, std::uint64_t seed) {
+    return make_sphere_world({size, count, moving, 0.5 * radius, radius, step, false, seed});
+}
+
+Aabb bounds_of(const SphereWorld& world) {
+    return {glm::vec3(0.0f), glm::vec3(world.size)};
+}
+
+GridPlanner planner_of(const SphereWorld& world, double step, const glm::ivec3& cells) {
+    return {{}, {}, {}, grid_objects(world, step, 1.0), with_cells(cells, bounds_of(world))};
+}
+
 std::set<std::size_t> objects_of(const FramePlan& plan) {
     std::set<std::size_t> result;
     for (const ObjectId object : plan.objects) result.insert(index_of(object));
     return result;
 }
 
-/// Balls that rays through random points of the picture meet first, and that `plan` lacks.
-std::size_t missing_balls(const BallWorld& world, const FrameInput& input, const FramePlan& plan,
-                          unsigned seed, int rays) {
+/// Spheres that rays through random points of the picture meet first, and that `plan` lacks.
+std::size_t missing_spheres(const SphereWorld& world, double time_s, const FrameInput& input,
+                            const FramePlan& plan, unsigned seed, int rays) {
     Uniform uniform(seed);
     const std::set<std::size_t> drawn = objects_of(plan);
     const glm::dmat4 relative_from_clip = glm::inverse(input.culling_view.clip_from_eye_relative());
@@ -52,25 +67,27 @@ std::size_t missing_balls(const BallWorld& world, const FrameInput& input, const
         const glm::dvec4 clip(uniform(-1.0, 1.0), uniform(-1.0, 1.0), -1.0, 1.0);
         const glm::dvec4 near = relative_from_clip * clip;
         const glm::dvec3 direction = glm::dvec3(near) / near.w;
-        const auto hit = world.first_hit(input.culling_view.eye(), direction, glm::length(direction));
+        const auto hit =
+            first_hit(world, time_s, input.culling_view.eye(), direction, glm::length(direction));
         if (hit && !drawn.contains(*hit)) ++missing;
     }
     return missing;
 }
 
-TEST(GridPlanner, draws_every_ball_that_a_ray_meets_first_while_balls_and_eye_move) {
+TEST(GridPlanner, draws_every_sphere_that_a_ray_meets_first_while_spheres_and_eye_move) {
     std::uint64_t drawn = 0, in_view = 0, revealed = 0, volumes = 0;
     for (const unsigned seed : {1u, 2u, 3u}) {
-        BallWorld world(seed, {40, 24, 40}, 900, 3.0, 0.12, 2);
-        GridPlanner planner({}, {}, {}, world.objects(), with_cells({80, 48, 80}, world.bounds));
+        const SphereWorld world = spheres_in({40, 24, 40}, 900, 450, 3.0, 0.12, seed);
+        GridPlanner planner = planner_of(world, 0.12, {80, 48, 80});
         FramePlan plan;
         for (int frame = 0; frame < 40; ++frame) {
             const double turn = 0.04 * frame;
-            const std::vector<Aabb> boxes = world.boxes();
+            const std::vector<Aabb> boxes = world.boxes_at(frame);
             const FrameInput input = seen_from({20 + 6 * std::cos(turn), 12.3, 20.1 + 6 * std::sin(turn)},
                                                {std::cos(2 * turn), 0.1, std::sin(2 * turn)}, boxes);
             planner.plan(input, plan);
-            EXPECT_EQ(missing_balls(world, input, plan, seed + static_cast<unsigned>(frame), 3000), 0u)
+            EXPECT_EQ(missing_spheres(world, frame, input, plan, seed + static_cast<unsigned>(frame), 3000),
+                      0u)
                 << "frame " << frame;
             std::vector<ObjectId> all;
             append_visible_objects(make_frustum(input.culling_view), boxes, all);
@@ -78,7 +95,6 @@ TEST(GridPlanner, draws_every_ball_that_a_ray_meets_first_while_balls_and_eye_mo
             in_view += all.size();
             revealed += planner.statistics().volumes_revealed;
             volumes += planner.statistics().volumes;
-            world.move();
         }
     }
     EXPECT_LT(drawn, in_view / 2);
@@ -87,50 +103,48 @@ TEST(GridPlanner, draws_every_ball_that_a_ray_meets_first_while_balls_and_eye_mo
 }
 
 TEST(GridPlanner, keeps_its_promise_when_the_camera_jumps) {
-    BallWorld world(5, {40, 24, 40}, 900, 2.2, 0.3, 1);
-    GridPlanner planner({}, {}, {}, world.objects(), with_cells({80, 48, 80}, world.bounds));
+    const SphereWorld world = spheres_in({40, 24, 40}, 900, 900, 2.2, 0.3, 5);
+    GridPlanner planner = planner_of(world, 0.3, {80, 48, 80});
     FramePlan plan;
     Uniform uniform(6);
     for (int frame = 0; frame < 60; ++frame) {
-        const std::vector<Aabb> boxes = world.boxes();
+        const std::vector<Aabb> boxes = world.boxes_at(frame);
         const glm::dvec3 eye(uniform(-10.0, 50.0), uniform(-5.0, 30.0), uniform(-10.0, 50.0));
         const FrameInput input =
             seen_from(eye, {uniform(-1.0, 1.0), uniform(-0.5, 0.5), uniform(-1.0, 1.0)}, boxes);
         planner.plan(input, plan);
-        EXPECT_EQ(missing_balls(world, input, plan, static_cast<unsigned>(frame), 2000), 0u)
+        EXPECT_EQ(missing_spheres(world, frame, input, plan, static_cast<unsigned>(frame), 2000), 0u)
             << "frame " << frame;
-        world.move();
     }
 }
 
 TEST(GridPlanner, costs_nothing_for_what_is_hidden_until_its_volume_is_over) {
     // All behind the eye.
-    BallWorld world(7, {40, 24, 40}, 500, 1.0, 0.01, 1);
-    std::erase_if(world.balls, [](const BallWorld::Ball& ball) { return ball.centre.x > 15.0; });
-    GridPlanner planner({}, {}, {}, world.objects(), with_cells({80, 48, 80}, world.bounds));
+    SphereWorld world = spheres_in({40, 24, 40}, 500, 500, 1.0, 0.01, 7);
+    std::erase_if(world.spheres, [](const SphereWorld::Sphere& sphere) { return sphere.centre.x > 15.0; });
+    GridPlanner planner = planner_of(world, 0.01, {80, 48, 80});
     FramePlan plan;
     std::uint64_t renewed = 0;
     for (int frame = 0; frame < 100; ++frame) {
-        const std::vector<Aabb> boxes = world.boxes();
+        const std::vector<Aabb> boxes = world.boxes_at(frame);
         planner.plan(seen_from({20.5, 12.5, 20.5}, {1, 0, 0}, boxes), plan);
         EXPECT_TRUE(plan.objects.empty());
-        EXPECT_EQ(planner.statistics().volumes, world.balls.size());
+        EXPECT_EQ(planner.statistics().volumes, world.spheres.size());
         renewed += planner.statistics().volumes_renewed;
-        world.move();
     }
     // Periods of up to 8, 16, 32, 64 … frames, and no less than half of that.
-    EXPECT_GE(renewed, 3 * world.balls.size());
-    EXPECT_LE(renewed, 4 * world.balls.size());
+    EXPECT_GE(renewed, 3 * world.spheres.size());
+    EXPECT_LE(renewed, 4 * world.spheres.size());
 }
 
 TEST(GridPlanner, plans_twice_the_same_and_allocates_nothing_after_warm_up) {
     const auto run = [](std::vector<std::uint64_t>& hashes) {
-        BallWorld world(8, {30, 20, 30}, 500, 2.0, 0.1, 2);
-        GridPlanner planner({}, {}, {}, world.objects(), with_cells({30, 20, 30}, world.bounds));
+        const SphereWorld world = spheres_in({30, 20, 30}, 500, 250, 2.0, 0.1, 8);
+        GridPlanner planner = planner_of(world, 0.1, {30, 20, 30});
         FramePlan plan;
         long allocated = 0;
         for (int frame = 0; frame < 2000; ++frame) {
-            const std::vector<Aabb> boxes = world.boxes();
+            const std::vector<Aabb> boxes = world.boxes_at(frame);
             const double turn = 6.283185307179586 * frame / 100;
             const FrameInput input =
                 seen_from({15.2, 10.1, 15.3}, {std::cos(turn), 0.0, std::sin(turn)}, boxes);
@@ -138,7 +152,6 @@ TEST(GridPlanner, plans_twice_the_same_and_allocates_nothing_after_warm_up) {
             planner.plan(input, plan);
             if (frame >= 1900) allocated += allocations() - before;
             if (frame < 200) hashes.push_back(plan_hash(plan));
-            world.move();
         }
         return allocated;
     };
@@ -164,10 +177,10 @@ TEST(GridPlanner, tracks_what_leaves_the_grid_and_what_has_no_known_speed) {
 }
 
 TEST(GridPlanner, tests_boxes_alone_where_no_eye_is_the_centre_of_rays) {
-    BallWorld world(9, {20, 20, 20}, 200, 2.0, 0.1, 2);
-    GridPlanner planner({}, {}, {}, world.objects(), with_cells({20, 20, 20}, world.bounds));
+    const SphereWorld world = spheres_in({20, 20, 20}, 200, 100, 2.0, 0.1, 9);
+    GridPlanner planner = planner_of(world, 0.1, {20, 20, 20});
     FramePlan plan;
-    const std::vector<Aabb> boxes = world.boxes();
+    const std::vector<Aabb> boxes = world.boxes_at(0);
     FrameInput input = seen_from({-5, 10, 10}, {1, 0, 0}, boxes);
     input.culling_view.clip_from_camera = orthographic(8, 8, 0.1, 50, ClipDepth::NegativeOneToOne);
     planner.plan(input, plan);

@@ -87,6 +87,111 @@ TEST_F(Compare, csv_has_a_line_per_method_and_frame) {
     EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 * 12);
 }
 
+TEST_F(Compare, pareto_walks_every_choice_and_its_fronts_hold_what_nothing_beats) {
+    const nlohmann::json compared = compare_json(
+        "compare city:blocks=4 --frames 20 --warmup 1 --size 160x90 --set c1=1,c3=500,query=2000 --pareto "
+        "--methods frustum");
+    std::vector<std::string> labels;
+    std::vector<double> errors;
+    for (const nlohmann::json& run : compared["runs"]) {
+        labels.push_back(run["label"]);
+        const nlohmann::json& error = run["summary"]["image_error"];
+        EXPECT_EQ(error["frames"], 20);
+        errors.push_back(1.0 - error["ssim"].get<double>());
+        // Exact methods show the picture of everything, pixel by pixel.
+        if (run["mode"] == "exact") {
+            EXPECT_EQ(error["missing_pixels"], 0) << labels.back();
+            EXPECT_EQ(error["depth_max"], 0.0) << labels.back();
+            EXPECT_EQ(error["colour_mse"], 0.0) << labels.back();
+            EXPECT_TRUE(error["psnr_db"].is_null()) << labels.back();
+            EXPECT_NEAR(errors.back(), 0.0, 1e-12) << labels.back();
+        }
+    }
+    EXPECT_EQ(labels,
+              (std::vector<std::string>{
+                  "frustum", "rhview:mode=exact", "rhview:mode=latent", "rhview:mode=latent:visible-pixels=4",
+                  "rhview:mode=latent:visible-pixels=16", "rhview:mode=latent:visible-pixels=64"}));
+    // So fast a walk outruns latent mode: its picture lacks something, and then every measure says so.
+    const nlohmann::json& latent = compared["runs"][2]["summary"]["image_error"];
+    EXPECT_GT(latent["missing_pixels"], 0);
+    EXPECT_GT(latent["depth_mean"], 0.0);
+    EXPECT_GT(latent["colour_mse"], 0.0);
+    EXPECT_LT(latent["ssim_min"], 0.9999);
+    for (const char* cost : {"frame_ms", "draw_calls", "indices"}) {
+        const auto cost_of = [&](std::size_t i) {
+            return compared["runs"][i]["summary"][cost]["median"].get<double>();
+        };
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            bool beaten = false;
+            for (std::size_t k = 0; k < labels.size(); ++k)
+                beaten = beaten || (cost_of(k) <= cost_of(i) && errors[k] <= errors[i] &&
+                                    (cost_of(k) < cost_of(i) || errors[k] < errors[i]));
+            const auto front = compared["pareto"][cost].get<std::vector<std::string>>();
+            EXPECT_EQ(std::ranges::find(front, labels[i]) != front.end(), !beaten)
+                << cost << " " << labels[i];
+        }
+    }
+}
+
+TEST_F(Compare, pareto_walks_each_bound_of_the_levels_errors_where_things_move) {
+    const nlohmann::json compared = compare_json(
+        "compare swarm:objects=40,mesh=8000 --frames 6 --warmup 1 --size 160x90 --set "
+        "c1=1,c3=500,query=2000 "
+        "--pareto");
+    ASSERT_EQ(compared["runs"].size(), 30u);
+    EXPECT_EQ(compared["reference"], "rhview:mode=exact:lod-error=0");
+    std::vector<double> indices, loss;
+    for (std::size_t i = 0; i < 6; ++i) {
+        const nlohmann::json& summary = compared["runs"][i]["summary"];
+        indices.push_back(summary["indices"]["mean"]);
+        loss.push_back(1.0 - summary["image_error"]["ssim"].get<double>());
+    }
+    EXPECT_EQ(compared["runs"][5]["label"], "rhview:mode=exact:lod-error=8");
+    EXPECT_EQ(compared["runs"][29]["label"], "rhview:mode=latent:visible-pixels=64:lod-error=8");
+    EXPECT_EQ(compared["runs"][0]["summary"]["image_error"]["missing_pixels"], 0);
+    EXPECT_NEAR(loss[0], 0.0, 1e-12);
+    EXPECT_GT(loss[5], loss[1]);
+    for (std::size_t i = 1; i < 6; ++i) EXPECT_LE(indices[i], indices[i - 1]) << i;
+    EXPECT_LT(indices[5], 0.9 * indices[0]);
+}
+
+TEST_F(Compare, each_method_has_its_own_parameters) {
+    const nlohmann::json compared = compare_json(
+        "compare spheres:spheres=1200,moving=60,sides=8 --frames 12 --warmup 1 --size 160x90 --check --set "
+        "c1=1,c3=500 --tune batch=20 --hierarchy octree --methods frustum,grid,grid:cells=2000,chc:leaf=300,"
+        "chc++:batch=5,nested-grid:levels=2:top-cells=4");
+    const auto of = [&](std::size_t run, const char* what) {
+        return compared["runs"][run]["summary"][what]["mean"].get<double>();
+    };
+    for (const nlohmann::json& run : compared["runs"])
+        EXPECT_EQ(run["summary"]["missing_pixels"]["total"], 0) << run["label"];
+    EXPECT_LT(of(1, "indices"), of(2, "indices"));
+    EXPECT_LT(of(2, "indices"), of(0, "indices"));
+    EXPECT_EQ(compared["runs"][3]["leaf"], 300);
+    EXPECT_EQ(compared["runs"][3]["build"]["hierarchy"], "octree");
+}
+
+TEST_F(Compare, modelled_price_is_that_of_8000_indices_a_draw) {
+    const nlohmann::json compared = compare_json(kCity + " --methods frustum,chc,rhview");
+    EXPECT_TRUE(compared["pareto"].is_null());
+    for (const nlohmann::json& run : compared["runs"]) {
+        double most = 0.0;
+        for (const nlohmann::json& frame : run["per_frame"])
+            most =
+                std::max(most, frame["indices"].get<double>() + 8000.0 * frame["draw_calls"].get<double>());
+        EXPECT_EQ(run["summary"]["modelled_indices"]["max"], most) << run["label"];
+        EXPECT_TRUE(run["summary"]["image_error"].is_null());
+        EXPECT_TRUE(run["per_frame"][0]["image_error"].is_null());
+    }
+    // What hangs on queries, and what a model decided, is not of methods that ask and wait in their own way.
+    const nlohmann::json& occlusion = compared["runs"][1]["per_frame"][0]["occlusion"];
+    EXPECT_TRUE(occlusion["waits"].is_number());
+    for (const char* field :
+         {"box_pass_queries", "conditional_draws", "skipped_indices", "query_ms", "saved_ms"})
+        EXPECT_TRUE(occlusion[field].is_null()) << field;
+    EXPECT_TRUE(compared["runs"][0]["per_frame"][0]["occlusion"].is_null());
+}
+
 TEST_F(Compare, refuses_what_it_does_not_know_in_a_sentence) {
     refuse(kCity + " --methods frustum,fastest", "unknown method 'fastest'");
     refuse(kCity + " --methods frustum,,rhview", "unknown method ''");
@@ -94,7 +199,12 @@ TEST_F(Compare, refuses_what_it_does_not_know_in_a_sentence) {
     refuse(kCity + " --methods octree:leaf=0", "leaf=0");
     refuse(kCity + " --methods octree:leaf=12x", "leaf=12x");
     refuse(kCity + " --methods octree:colour=red", "colour");
+    refuse(kCity + " --methods grid:cells=none", "cells=none");
+    refuse(kCity + " --methods octree:cells=2000", "has no such choice");
     refuse(kCity + " --methods rhview:mode=vague", "vague");
+    refuse(kCity + " --methods rhview:visible-pixels=4", "needs --mode latent");
+    refuse(kCity + " --methods rhview:mode=latent:visible-pixels=few", "whole number of pixels");
+    refuse(kCity + " --pareto --methods rhview:mode=latent", "listed twice");
     refuse(kCity + " --order random", "--order random");
 }
 

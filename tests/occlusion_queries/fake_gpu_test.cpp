@@ -222,6 +222,45 @@ TEST(Exploration, never_spends_more_than_its_share_and_reaches_every_item) {
     EXPECT_GE(*std::min_element(tests.begin(), tests.end()), 1);
 }
 
+TEST(LatentMode, what_is_seen_by_fewer_samples_than_wanted_is_left_out_and_in_exact_mode_is_not) {
+    for (const OcclusionMode mode : {OcclusionMode::Latent, OcclusionMode::Exact}) {
+        OcclusionScheduler scheduler({.mode = mode, .visible_samples = 16}, software_costs());
+        // Seen by so many samples, all counted; the last one's answer does not count.
+        const std::vector<std::uint64_t> samples{0, 1, 15, 16, 5000, 0};
+        const auto answers_visible = [&](std::uint32_t item) { return item == 5 || samples[item] > 0; };
+        std::vector<OcclusionCandidate> candidates;
+        for (std::uint32_t item = 0; item < samples.size(); ++item)
+            candidates.push_back({item, 1e6f, 500.0f, 10.0f, 1, 1, true, item != 5});
+        scheduler.resize(candidates.size());
+        OcclusionDecisions decided;
+        std::vector<QueryAnswer> answers;
+        for (int frame = 0; frame < 40; ++frame) {
+            scheduler.absorb(answers);
+            scheduler.begin_frame(1e7);
+            for (const OcclusionCandidate& candidate : candidates) {
+                const Belief belief = scheduler.visit(candidate.item);
+                const bool hidden =
+                    mode == OcclusionMode::Exact ? !answers_visible(candidate.item) : candidate.item < 3;
+                EXPECT_TRUE(frame == 0 || (belief == Belief::Hidden) == hidden) << candidate.item;
+            }
+            scheduler.decide(candidates, decided);
+            answers.clear();
+            for (const ScheduledQuery& query : decided.queries) {
+                const std::uint32_t item = candidates[decided.members[query.first_member]].item;
+                ASSERT_EQ(query.member_count, 1u);
+                answers.push_back({query.ticket, answers_visible(item), samples[item]});
+            }
+            for (std::uint32_t item = 0; item < samples.size(); ++item) {
+                const OcclusionAction action = decided.decisions[item].action;
+                EXPECT_EQ(action == OcclusionAction::Skip,
+                          mode == OcclusionMode::Latent && frame > 0 && item < 3)
+                    << item << " in frame " << frame;
+            }
+        }
+        EXPECT_GT(scheduler.counters().hidden, 0u);
+    }
+}
+
 TEST(LatentMode, its_error_is_bounded_by_the_age_of_the_answers_it_trusts) {
     for (const std::uint32_t latency : {1u, 3u}) {
         FlatWorld world = forest(4000, 7, 1.5);

@@ -134,7 +134,7 @@ struct Golden {
 
 // The hashes are the same for GCC and Clang, with and without optimisation. One that changes means another
 // scene: figures published for the old one no longer compare.
-constexpr std::array<Golden, 11> kGolden{{
+constexpr std::array<Golden, 12> kGolden{{
     {"town:size=200", 0x9a99a698d260fd92},
     {"town:size=150,seed=8,materials=5", 0x6398718730a20c11},
     {"plant:objects=3000", 0x551fe9cd690b4bcb},
@@ -145,6 +145,7 @@ constexpr std::array<Golden, 11> kGolden{{
     {"city:blocks=3,seed=4", 0x31abfa708f65caab},
     {"crowd:objects=50,street=5,seed=2", 0x6befef3aca62eb8d},
     {"swarm:objects=30,mesh=300", 0x6a3aa76ad88a319b},
+    {"spheres:spheres=60,moving=20,sides=8", 0xc53a56dc0881c5cb},
     {"soup:triangles=3000", 0xe84ad41693a53f87},
 }};
 
@@ -166,7 +167,7 @@ TEST(NamedScene, default_town_has_the_size_and_content_that_are_published) {
 }
 
 TEST(NamedScene, default_sizes_of_the_lighter_scenes_are_true) {
-    for (const char* name : {"farm", "crowd", "swarm", "soup"})
+    for (const char* name : {"farm", "crowd", "swarm", "spheres", "soup"})
         EXPECT_EQ(size_of(built(name).scene), info_of(name).default_size) << name;
 }
 
@@ -179,11 +180,11 @@ TEST(NamedScene, default_sizes_of_the_heavier_scenes_are_true) {
 }
 
 TEST(NamedScene, every_path_is_valid_and_reaches_the_whole_scene) {
-    for (const char* spec :
-         {"town:size=16", "town:size=100", "town:size=180,seed=1", "plant:objects=100", "plant:objects=4500",
-          "indoor:rooms=2,floors=1", "indoor:rooms=3,floors=4", "indoor:rooms=5,floors=3",
-          "farm:mesh=1000,seed=3", "city:blocks=1", "city:blocks=2", "city:blocks=5", "crowd:objects=10",
-          "swarm:objects=1,mesh=60", "swarm:objects=300", "soup:triangles=1000"}) {
+    for (const char* spec : {"town:size=16", "town:size=100", "town:size=180,seed=1", "plant:objects=100",
+                             "plant:objects=4500", "indoor:rooms=2,floors=1", "indoor:rooms=3,floors=4",
+                             "indoor:rooms=5,floors=3", "farm:mesh=1000,seed=3", "city:blocks=1",
+                             "city:blocks=2", "city:blocks=5", "crowd:objects=10", "swarm:objects=1,mesh=60",
+                             "swarm:objects=300", "spheres:spheres=50,moving=5", "soup:triangles=1000"}) {
         const SceneAndPath made = built(spec);
         const Status status = validate(made.path);
         EXPECT_TRUE(status.ok()) << spec << ": " << status.error().message;
@@ -195,15 +196,16 @@ TEST(NamedScene, every_path_is_valid_and_reaches_the_whole_scene) {
 TEST(NamedScene, another_seed_is_another_scene) {
     for (const char* name :
          {"town:size=64", "plant:objects=300", "indoor:rooms=2", "farm:mesh=1000", "city:blocks=2",
-          "crowd:objects=20", "swarm:objects=20", "soup:triangles=1000"}) {
+          "crowd:objects=20", "swarm:objects=20", "spheres:spheres=9", "soup:triangles=1000"}) {
         const std::string spec = std::string(name) + ",seed=";
         EXPECT_NE(hash_of(built(spec + "11").scene), hash_of(built(spec + "12").scene)) << name;
     }
 }
 
 TEST(NamedScene, stored_normals_point_out_of_the_front_faces) {
-    for (const char* spec : {"plant:objects=3000", "indoor:rooms=3,floors=2", "farm:mesh=5000",
-                             "city:blocks=2", "crowd:objects=20", "swarm:objects=20"}) {
+    for (const char* spec :
+         {"plant:objects=3000", "indoor:rooms=3,floors=2", "farm:mesh=5000", "city:blocks=2",
+          "crowd:objects=20", "swarm:objects=20", "spheres:spheres=30,moving=9"}) {
         const Scene scene = built(spec).scene;
         std::uint64_t wrong = 0;
         const auto check = [&](const VertexPool& pool, std::span<const std::uint32_t> indices) {
@@ -366,7 +368,7 @@ TEST(NamedScene, a_spec_is_a_named_scene_by_its_part_before_the_colon) {
     EXPECT_FALSE(is_named_scene("town.glb"));
     EXPECT_FALSE(is_named_scene("c:town"));
     EXPECT_FALSE(is_named_scene(""));
-    ASSERT_EQ(named_scenes().size(), 8u);
+    ASSERT_EQ(named_scenes().size(), 9u);
     EXPECT_EQ(named_scenes()[0].name, "town");
     for (const NamedSceneInfo& info : named_scenes())
         for (const SceneParameter& parameter : info.parameters) {
@@ -378,10 +380,10 @@ TEST(NamedScene, a_spec_is_a_named_scene_by_its_part_before_the_colon) {
 TEST(NamedScene, bad_specs_are_refused_with_the_mend) {
     EXPECT_EQ(refusal(""),
               "there is no named scene ''; the named scenes are town, plant, indoor, farm, city, crowd, "
-              "swarm and soup");
+              "swarm, spheres and soup");
     EXPECT_EQ(refusal("tow:size=20"),
               "there is no named scene 'tow'; the named scenes are town, plant, indoor, farm, city, crowd, "
-              "swarm and soup");
+              "swarm, spheres and soup");
     EXPECT_EQ(refusal("town:length=20"),
               "town: there is no parameter 'length'; town has size, seed and materials");
     EXPECT_EQ(refusal("town:"), "town: a parameter is empty; write town:size=700");

@@ -33,7 +33,8 @@ Scene two_objects() {
 }
 
 TEST(ObjectMotion, at_time_zero_everything_stands_where_it_was_placed) {
-    for (const char* spec : {"farm:mesh=1000,instances=40", "crowd:objects=200", "swarm:objects=100"}) {
+    for (const char* spec : {"farm:mesh=1000,instances=40", "crowd:objects=200", "swarm:objects=100",
+                             "spheres:spheres=80,moving=60,sides=6"}) {
         const Scene scene = make_named_scene(spec)->scene;
         ObjectPlacements placements;
         place_objects(scene, 0.0, placements);
@@ -67,7 +68,8 @@ TEST(ObjectMotion, ways_pass_their_keys_and_repeat) {
 TEST(ObjectMotion, nothing_moves_faster_than_its_top_speed) {
     Uniform random(5);
     std::vector<Scene> scenes{two_objects()};
-    for (const char* spec : {"farm:mesh=1000,instances=30", "crowd:objects=100", "swarm:objects=100"})
+    for (const char* spec : {"farm:mesh=1000,instances=30", "crowd:objects=100", "swarm:objects=100",
+                             "spheres:spheres=80,moving=60,sides=6"})
         scenes.push_back(make_named_scene(spec)->scene);
     for (const Scene& scene : scenes) {
         double closest = 0.0;

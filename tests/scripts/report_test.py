@@ -25,7 +25,14 @@ def walk(errors, schema="rhview.walk/1"):
     return json.dumps({"schema": schema, "scene": {"name": "town"}, "method": "octree", "per_frame": frames})
 
 
-def compare(labels=("frustum", "octree:leaf=100", "rhview"), winner=None, lod=False):
+def image_error(number):
+    """None of the first method, then ten times more of each."""
+    loss = 0.0 if number == 0 else 1e-4 * 10 ** number
+    return {"frames": 20, "missing_pixels": 40 * number, "depth_mean": loss, "depth_max": 1.0, "colour_mse": 100 * loss,
+            "psnr_db": None if number == 0 else 30.0 - number, "ssim": 1 - loss, "ssim_min": 1 - 2 * loss}
+
+
+def compare(labels=("frustum", "octree:leaf=100", "rhview"), winner=None, lod=False, pareto=None):
     """A comparison as the program writes it, with a label that is hostile to HTML at will."""
     runs, compared = [], []
     for number, label in enumerate(labels):
@@ -38,13 +45,15 @@ def compare(labels=("frustum", "octree:leaf=100", "rhview"), winner=None, lod=Fa
                      "profile": {"c1_ns": 1.0, "c3_ns": 1000.0, "source": "set"},
                      "summary": {"frame_ms": statistics(11.0), "cull_ms": statistics(0.1), "draw_calls": statistics(20),
                                  "indices": statistics(3e5), "queries": statistics(9), "predicted_ms": statistics(18),
+                                 "modelled_indices": statistics(5e5),
+                                 "image_error": image_error(number) if pareto else None,
                                  "lod_error_px": statistics(0.5 * number) if lod else None,
                                  "missing_pixels": {"total": 0, "max": 0, "frames": 0, "checked_frames": 20}},
                      "per_frame": frames})
         interval = {"median": 1.0, "low": 0.9, "high": 1.1}
         compared.append({"label": label, "frame_ms": interval, "frame_ms_ratio": interval})
     return json.dumps({"schema": "rhview.compare/1", "command": "rhview compare town --methods 'a<b'", "order": "frame",
-                       "threads": 2, "reference": labels[-1], "winner": winner, "comparison": compared, "runs": runs})
+                       "threads": 2, "pareto": pareto, "reference": labels[-1], "winner": winner, "comparison": compared, "runs": runs})
 
 
 class Page(html.parser.HTMLParser):
@@ -157,6 +166,41 @@ class Report(unittest.TestCase):
         self.assertIn("No method is told to be the fastest", text)
         self.assertNotIn("plot-error", Page(text).ids)
 
+    FRONT = {"error": "1 - ssim", "frame_ms": ["frustum"], "draw_calls": ["frustum", "rhview"], "indices": ["frustum"]}
+
+    def test_the_page_of_a_front_has_its_plots_and_its_table(self):
+        text = self.page(compare(pareto=self.FRONT))
+        page = Page(text)
+        self.assertEqual(page.open, [])
+        for cost in ("frame_ms", "draw_calls", "indices"):
+            self.assertIn(f"plot-front_{cost}", page.ids)
+        self.assertIn("errors", page.ids)
+        self.assertEqual(text.count('<polyline class="front"'), 3)
+        self.assertEqual(text.count('<circle cx="'), 3 * 3 + 3 * 20)
+        self.assertIn("<td>equal</td>", text)
+        self.assertIn("<td>0.99900</td>", text)
+        self.assertIn("<td>20*</td>", text)
+        self.assertNotIn("plot-front", self.page(compare()))
+
+    def test_lines_that_nobody_could_tell_apart_are_left_out(self):
+        labels = tuple(f"method {i}" for i in range(13))
+        front = {cost: [labels[0]] for cost in ("frame_ms", "draw_calls", "indices")}
+        text = self.page(compare(labels=labels, pareto=front))
+        self.assertNotIn("plot-frame_ms", Page(text).ids)
+        self.assertIn("plot-front_frame_ms", Page(text).ids)
+
+    def test_the_front_is_a_picture_too(self):
+        done = subprocess.run([sys.executable, REPORT, str(self.write("compare.json", compare(pareto=self.FRONT))), "-o",
+                               str(self.folder / "out"), "--front"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        data = (self.folder / "out" / "front.png").read_bytes()
+        self.assertEqual(data[:8], PNG)
+        self.assertGreater(len(data), 5000)
+        done = subprocess.run([sys.executable, REPORT, str(self.write("plain.json", compare())), "-o",
+                               str(self.folder / "out"), "--front"], capture_output=True, text=True, check=False)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("plain.json: tells no front", done.stderr)
+
     def test_names_are_text_not_markup(self):
         text = self.page(compare(labels=("<script>alert(1)</script>", "rhview")))
         self.assertNotIn("script", Page(text).tags)
@@ -172,14 +216,14 @@ class Report(unittest.TestCase):
 
     @unittest.skipIf(BROWSER is None, "no chromium here: the page was not opened in a browser")
     def test_a_browser_shows_the_page_without_an_error(self):
-        self.page(compare(lod=True))
+        self.page(compare(lod=True, pareto=self.FRONT))
         done = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--v=0",
                                f"--user-data-dir={self.folder / 'browser'}", "--dump-dom",
                                (self.folder / "out" / "report.html").as_uri()],
                               capture_output=True, text=True, check=False, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("CONSOLE", done.stderr)
-        self.assertEqual(done.stdout.count("<figure"), len(PLOTS) + 1)
+        self.assertEqual(done.stdout.count("<figure"), len(PLOTS) + 1 + 3)
 
 
 if __name__ == "__main__":

@@ -70,8 +70,8 @@ struct OcclusionSettings {
     /// Members of a multiquery at most. CHC++ collects 20 to 80.
     std::uint32_t max_multiquery = 64;
 
-    /// Frames for which `merge` says no after its item was believed hidden and answered visible: doubled each
-    /// time in a row, up to the greatest. Ours.
+    /// Frames for which an item that was seen is not tried as one again (`may_try`): doubled each time in a
+    /// row, up to the greatest. Ours.
     std::uint32_t merge_interval = 8;
     std::uint32_t max_merge_interval = 512;
 
@@ -80,6 +80,10 @@ struct OcclusionSettings {
     /// Latent mode: an item is left out on the word of an answer to a question at most so many frames old.
     /// Ours: with `visible_interval`, as long as CHC++ trusts the opposite answer.
     std::uint32_t latent_max_age = 8;
+    /// Latent mode: an answer that counts fewer samples than this is taken for hidden; the counted ones are
+    /// those of its boxes. Above 1, planners ask for counts, by a hardware query for each item. CHC++'s
+    /// visibility threshold is one less.
+    std::uint32_t visible_samples = 1;
     std::uint64_t seed = 1;  ///< of the random phases
 };
 
