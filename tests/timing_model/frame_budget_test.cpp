@@ -55,16 +55,16 @@ TEST(FrameBudget, holds_for_the_promised_share_of_frames_like_those_before) {
             held += measured <= predicted * budget.margin();
             budget.observe(predicted, measured);
         }
-        EXPECT_GE(held, 0.94 * kFrames);
-        EXPECT_LE(held, 0.98 * kFrames) << "a margin that is never used up is too wide";
+        EXPECT_GE(held, 0.96 * kFrames);
+        EXPECT_LE(held, 0.99 * kFrames) << "a margin that is never used up is too wide";
     }
 }
 
-TEST(FrameBudget, follows_a_machine_that_gets_faster_within_a_second) {
+TEST(FrameBudget, follows_a_machine_that_gets_faster_within_two_seconds) {
     FrameBudget budget(std::nullopt);
-    for (int i = 0; i < 100; ++i) budget.observe(1.0, 4.0);
+    for (int i = 0; i < 200; ++i) budget.observe(1.0, 4.0);
     EXPECT_DOUBLE_EQ(budget.margin(), 4.0);
-    for (int i = 0; i < 60; ++i) budget.observe(1.0, 1.1);
+    for (int i = 0; i < 120; ++i) budget.observe(1.0, 1.1);
     EXPECT_DOUBLE_EQ(budget.margin(), 1.1);
 }
 

@@ -9,7 +9,7 @@
 namespace rhview {
 namespace {
 
-/// The fewest frames of which one may lie above the margin.
+/// Of fewer frames the largest is no bound on the next one.
 constexpr std::size_t kEnough = 39;
 
 }  // namespace

@@ -25,7 +25,7 @@ struct OcclusionOptions {
     /// rasterising weigh. 0: the same.
     double shown_index_ns = 0.0;
     /// The indices of a dynamic object, by `ObjectId`; an object beyond the end counts as none and is drawn
-    /// at once.
+    /// at once. Read in every frame: the caller may change them with the objects' levels of detail.
     std::span<const std::uint32_t> object_indices{};
     /// Queries about objects say how many samples were seen: hardware queries only.
     bool counts_samples = false;

@@ -13,14 +13,14 @@
 
 namespace rhview {
 
-/// The share of frames that a budget promises to hold for.
-inline constexpr double kBudgetShare = 0.95;
+/// The share of frames that a budget is planned to hold for. Frames that follow one another are alike and
+/// then change all at once: of the twentieth that may miss, half is left to that.
+inline constexpr double kBudgetShare = 0.975;
 
 /// Remembers by what factor the last frames took longer than was predicted. The margin is the factor that
-/// `kBudgetShare` of them stayed within, counted as for one more frame of their kind: the ⌈0.95·(n + 1)⌉-th
+/// `kBudgetShare` of them stayed within, counted as for one more frame of their kind: the ⌈0.975·(n + 1)⌉-th
 /// of n. Source: Vovk, Gammerman & Shafer 2005, "Algorithmic learning in a random world" (inductive conformal
-/// prediction); frames that follow one another are only nearly exchangeable, so the share is an aim. No
-/// allocation.
+/// prediction). No allocation.
 class FrameBudget {
   public:
     /// Until enough frames were seen, the margin is the largest of them or of the profile's residuals,
@@ -36,7 +36,7 @@ class FrameBudget {
     [[nodiscard]] double plannable_ns(double budget_ns) const { return budget_ns / margin(); }
 
   private:
-    static constexpr std::size_t kRemembered = 60;
+    static constexpr std::size_t kRemembered = 120;
 
     double prior_ = 1.5;
     std::array<double, kRemembered> factors_{};  ///< a ring
