@@ -11,7 +11,7 @@ set -euo pipefail
 
 packages=(
     # tools
-    g++ cmake ninja-build git python3 pkg-config clang-format
+    g++ gcc cmake ninja-build git python3 pkg-config clang-format dpkg-dev groff-base
     # the fuzzer: Clang, its sanitizers and libFuzzer
     clang libclang-rt-dev
     # the core
@@ -24,6 +24,8 @@ packages=(
     libtinygltf-dev libtinyobjloader-dev nlohmann-json3-dev
     # the program and text
     libcli11-dev libfmt-dev
+    # the viewer, and a display without a screen that it is tested in
+    libglfw3-dev libimgui-dev xvfb
     # tests and benchmarks
     libgtest-dev libbenchmark-dev
     # plots, and a browser that report pages are tested in

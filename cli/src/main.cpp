@@ -17,7 +17,8 @@
 namespace rhview::cli {
 namespace {
 
-constexpr std::array<std::string_view, 6> kVerbs{"scenes", "info", "calibrate", "bake", "walk", "compare"};
+constexpr std::array<std::string_view, 7> kVerbs{"scenes", "info",    "calibrate", "bake",
+                                                 "walk",   "compare", "view"};
 
 constexpr const char* kSceneHelp = "A file (.glb .gltf .obj .ply .rho) or a named scene";
 
@@ -78,8 +79,8 @@ void add_calibrate(CLI::App& app, CalibrateOptions& options) {
     calibrate->add_option("--csv", options.csv, "Write a line per timed frame")->type_name("FILE");
 }
 
-/// What walks and comparisons have in common.
-void add_walk_options(CLI::App* walk, WalkOptions& options) {
+/// What all verbs that cull have in common.
+void add_culling_options(CLI::App* walk, WalkOptions& options) {
     walk->add_option("SCENE", options.scene, kSceneHelp)->required();
     walk->add_option("--mode", options.mode,
                      "exact: what is left out is proved hidden in the same frame; latent: earlier frames' "
@@ -110,30 +111,12 @@ void add_walk_options(CLI::App* walk, WalkOptions& options) {
                      "Timing constants in ns: c0, c1 per index, c3 per draw call, query (an occlusion query, "
                      "whatever its boxes), box (a query of the box pass, likewise)")
         ->type_name("c1=…,c3=…,query=…");
-    walk->add_option("--frames", options.frames, "Frames to measure")
-        ->check(CLI::Range(1, 1'000'000))
-        ->capture_default_str();
-    walk->add_option("--warmup", options.warmup, "Frames drawn before, not measured")
-        ->check(CLI::Range(0, 1'000'000))
-        ->capture_default_str();
-    walk->add_option("--repeats", options.repeats, "Draw each frame that often, report the median time")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
     walk->add_option("--size", options.size, "Picture size")->type_name("WxH")->capture_default_str();
     add_octree_options(*walk, kLeafHelpOfAll, options.leaf, options.replica_budget);
     add_instance_options(*walk, options.instances);
     walk->add_option("--submission", options.submission,
                      "plain: a call per range; multi: a multi-draw per batch")
         ->capture_default_str();
-    walk->add_option("--visible-pixels", options.visible_pixels,
-                     "--mode latent: what shows fewer pixels of its boxes than this is left out as well")
-        ->type_name("PX")
-        ->check(CLI::Range(0u, 1'000'000'000u));
-    walk->add_option("--image-error", options.image_error_every,
-                     "Measure every N-th frame's difference from everything at full detail: depth error, "
-                     "PSNR, SSIM")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1'000'000));
     walk->add_option("--lod-error", options.lod_error_px,
                      "Largest error of dynamic objects' levels of detail, in pixels; 0: full detail")
         ->type_name("PX")
@@ -144,6 +127,38 @@ void add_walk_options(CLI::App* walk, WalkOptions& options) {
             "Frame budget: levels of detail give way to it, and each frame says whether it can be met")
         ->type_name("MS")
         ->check(CLI::Range(0.001, 1e6));
+}
+
+/// What walks and comparisons have in common.
+void add_walk_options(CLI::App* walk, WalkOptions& options) {
+    add_culling_options(walk, options);
+    walk->add_option("--frames", options.frames, "Frames to measure")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    walk->add_option("--rate", options.rate_hz,
+                     "Frames per second of the path's own time; default: all of the path in --frames")
+        ->type_name("HZ")
+        ->check(CLI::Range(1e-3, 1e6));
+    walk->add_option("--excerpts", options.excerpts,
+                     "With --rate: so many stretches of the path, evenly spread, share the frames")
+        ->type_name("K")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    walk->add_option("--warmup", options.warmup, "Frames drawn before, not measured")
+        ->check(CLI::Range(0, 1'000'000))
+        ->capture_default_str();
+    walk->add_option("--repeats", options.repeats, "Draw each frame that often, report the median time")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    walk->add_option("--visible-pixels", options.visible_pixels,
+                     "--mode latent: what shows fewer pixels of its boxes than this is left out as well")
+        ->type_name("PX")
+        ->check(CLI::Range(0u, 1'000'000'000u));
+    walk->add_option("--image-error", options.image_error_every,
+                     "Measure every N-th frame's difference from everything at full detail: depth error, "
+                     "PSNR, SSIM")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000));
     walk->add_flag("--check", options.check, "Compare every frame's depth with drawing everything");
     walk->add_option("--check-every", options.check_every, "Check every N-th frame only (implies --check)")
         ->type_name("N")
@@ -159,11 +174,29 @@ void add_walk_options(CLI::App* walk, WalkOptions& options) {
     walk->add_option("--csv", options.csv, "Write a line per frame")->type_name("FILE");
 }
 
-void add_walk(CLI::App& app, WalkOptions& options) {
-    CLI::App* walk = app.add_subcommand("walk", "One culling method along a camera path, headless");
-    walk->add_option("--method", options.method, fmt::format("{}", fmt::join(method_names(), ", ")))
+void add_method(CLI::App* verb, WalkOptions& options) {
+    verb->add_option("--method", options.method, fmt::format("{}", fmt::join(method_names(), ", ")))
         ->type_name("M")
         ->capture_default_str();
+}
+
+void add_view(CLI::App& app, ViewOptions& options) {
+    CLI::App* view =
+        app.add_subcommand("view", "A window to fly through, with the culling seen from outside");
+    add_method(view, options.walk);
+    add_culling_options(view, options.walk);
+    view->add_option("--script", options.script,
+                     "Run the commands of a file, then quit: frames, hold, turn, key, freeze, record, "
+                     "screenshot and more; docs/viewer.md")
+        ->type_name("FILE");
+    view->add_option("--folder", options.folder, "Where screenshots and recordings go")
+        ->type_name("DIR")
+        ->capture_default_str();
+}
+
+void add_walk(CLI::App& app, WalkOptions& options) {
+    CLI::App* walk = app.add_subcommand("walk", "One culling method along a camera path, headless");
+    add_method(walk, options);
     add_walk_options(walk, options);
     walk->add_option("--json", options.json, "Write the results as JSON (rhview.walk/1)")->type_name("FILE");
     walk->add_option("--images", options.images, "Write a PNG of every 30th frame")->type_name("DIR");
@@ -258,6 +291,8 @@ int run(int argc, char** argv) {
     add_compare(app, compare);
     BakeOptions bake;
     add_bake(app, bake);
+    ViewOptions view;
+    add_view(app, view);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& done) {
@@ -275,6 +310,7 @@ int run(int argc, char** argv) {
                        : app.got_subcommand("info")           ? run_info(info)
                        : app.got_subcommand("bake")           ? run_bake(bake)
                        : app.got_subcommand("compare")        ? run_compare(compare)
+                       : app.got_subcommand("view")           ? run_view(view)
                        : app.got_subcommand("calibrate")      ? run_calibrate(calibrate)
                                                               : run_walk(walk);
     if (code && std::fflush(stdout) != 0)

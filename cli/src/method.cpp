@@ -60,6 +60,15 @@ std::span<const std::uint32_t> PreparedMethod::static_indices() const {
     return octree != nullptr ? octree->indices() : std::span<const std::uint32_t>();
 }
 
+std::unique_ptr<FramePlanner> make_octree_planner(std::string_view method, const RhOctree& octree,
+                                                  const MethodOptions& options) {
+    if (method == "octree") return std::make_unique<OctreeLeaves>(octree);
+    if (method == "rhview-seed" && options.occlusion)
+        return std::make_unique<SeedPlanner>(octree, options.costs, papers(*options.occlusion));
+    if (method == "rhview-seed") return std::make_unique<SeedPlanner>(octree);
+    return std::make_unique<RhviewPlanner>(octree, options.costs, options.occlusion);
+}
+
 std::unique_ptr<FramePlanner> make_reference(const Scene& scene) {
     std::vector<std::uint32_t> counts;
     for (const SceneBatch& batch : scene.batches)
@@ -107,16 +116,7 @@ Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scen
         prepared.max_leaf_triangles = octree_options.max_leaf_triangles;
         prepared.octree = std::make_unique<RhOctree>(std::move(octree).value());
     }
-    if (method == "octree")
-        prepared.planner = std::make_unique<OctreeLeaves>(*prepared.octree);
-    else if (method == "rhview-seed" && options.occlusion)
-        prepared.planner =
-            std::make_unique<SeedPlanner>(*prepared.octree, options.costs, papers(*options.occlusion));
-    else if (method == "rhview-seed")
-        prepared.planner = std::make_unique<SeedPlanner>(*prepared.octree);
-    else
-        prepared.planner =
-            std::make_unique<RhviewPlanner>(*prepared.octree, options.costs, options.occlusion);
+    prepared.planner = make_octree_planner(method, *prepared.octree, options);
     return prepared;
 }
 

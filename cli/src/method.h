@@ -57,6 +57,10 @@ OctreeOptions octree_options_of(std::string_view method, const Scene& scene, con
 Result<PreparedMethod> prepare_method(std::string_view method, const Scene& scene,
                                       const MethodOptions& options, const BakedOctree* baked = nullptr);
 
+/// The planner of `octree`, `rhview-seed` or `rhview` over an octree that outlives it.
+std::unique_ptr<FramePlanner> make_octree_planner(std::string_view method, const RhOctree& octree,
+                                                  const MethodOptions& options);
+
 /// The planner of what the picture must equal, whatever the order of the static indices.
 std::unique_ptr<FramePlanner> make_reference(const Scene& scene);
 

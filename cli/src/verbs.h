@@ -49,6 +49,8 @@ struct WalkOptions {
     int frames = 120;
     int warmup = 8;
     int repeats = 1;
+    std::optional<double> rate_hz;      ///< frames per second of the path; else all of it in `frames`
+    int excerpts = 1;                   ///< of the path, with `rate_hz`
     std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
     double replica_budget = 1.0;
     InstancesWanted instances;
@@ -79,6 +81,12 @@ struct CompareOptions {
     std::filesystem::path program;
 };
 
+struct ViewOptions {
+    WalkOptions walk;
+    std::optional<std::filesystem::path> script;
+    std::filesystem::path folder = ".";  ///< where screenshots and recordings go
+};
+
 struct BakeOptions {
     std::string scene;
     std::filesystem::path output;
@@ -98,5 +106,7 @@ Result<int> run_calibrate(const CalibrateOptions& options);
 Result<int> run_walk(const WalkOptions& options);
 Result<int> run_compare(const CompareOptions& options);
 Result<int> run_bake(const BakeOptions& options);
+/// An error in a build without the viewer.
+Result<int> run_view(const ViewOptions& options);
 
 }  // namespace rhview::cli

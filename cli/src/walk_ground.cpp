@@ -12,6 +12,7 @@
 #include "level_chains.h"
 #include "method.h"
 #include "rhview/gl/timer.h"
+#include "walk_pace.h"
 
 namespace rhview::cli {
 namespace {
@@ -68,6 +69,8 @@ Result<LoadedScene> load(const WalkOptions& options) {
             "--leaf {}: {} brings its octree, with leaves of at most {} triangles; bake it again with "
             "another --leaf",
             *options.leaf, options.scene, loaded->baked->octree.options.max_leaf_triangles)};
+    if (loaded)
+        if (const Status pace = check_pace(loaded->path, options); !pace) return pace.error();
     return loaded;
 }
 
@@ -102,12 +105,17 @@ Result<WalkWishes> parse_wishes(const WalkOptions& options) {
 Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, Progress& progress) {
     Result<gl::Context> context = gl::Context::create_headless();
     if (!context) return context.error();
+    return prepare_ground(options, std::move(wishes), std::move(context).value(), progress);
+}
+
+Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, gl::Context context,
+                                  Progress& progress) {
     progress.say("loading " + options.scene);
     Result<LoadedScene> loaded = load(options);
     if (!loaded) return loaded.error();
     progress.say("choosing timing constants");
     Result<ChosenConstants> chosen = choose_constants(
-        wishes.constants, options.scene, *loaded, context->device(), wishes.size.width, wishes.size.height);
+        wishes.constants, options.scene, *loaded, context.device(), wishes.size.width, wishes.size.height);
     if (!chosen) return chosen.error();
     if (!chosen->warning.empty()) {
         progress.clear();
@@ -119,7 +127,7 @@ Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes,
         !status)
         return status.error();
     const double settle_ms = timer.elapsed_ms();
-    WalkGround ground{std::move(context).value(),
+    WalkGround ground{std::move(context),
                       std::move(loaded).value(),
                       std::move(wishes.constants),
                       std::move(chosen).value(),

@@ -39,5 +39,8 @@ Result<WalkWishes> parse_wishes(const WalkOptions& options);
 /// Makes a context without a window, loads the scene, measures what is not known. A warning about the
 /// constants goes to standard error.
 Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, Progress& progress);
+/// The same in a context that is there already.
+Result<WalkGround> prepare_ground(const WalkOptions& options, WalkWishes wishes, gl::Context context,
+                                  Progress& progress);
 
 }  // namespace rhview::cli

@@ -22,6 +22,7 @@
 #include "rhview/timing_model/running_update.h"
 #include "statistics.h"
 #include "walk_levels.h"
+#include "walk_pace.h"
 
 namespace rhview::cli {
 namespace {
@@ -106,7 +107,7 @@ class WalkSession::Impl {
           ground_(ground),
           constants_(ground.chosen.constants),
           scene_(ground.loaded.scene),
-          path_(ground.loaded.path),
+          pace_(ground.loaded.path, options),
           reference_(make_reference(scene_)),
           bounds_(scene_.bounds()),
           clip_depth_(ground.context.device().clip_control ? ClipDepth::ReversedZeroToOne
@@ -118,24 +119,59 @@ class WalkSession::Impl {
     Status set_up() {
         if (Status status = prepare(); !status) return status;
         report_.plan_hash = plan_hash({});
-        make_movers();
-        if (!ground_.chains.empty() && (options_.lod_error_px > 0.0 || options_.budget_ms))
-            levels_.emplace(scene_, ground_.chains, options_, constants_ ? &constants_->profile : nullptr);
-        if (constants_) running_.emplace(constants_->profile);
-        return set_up_device();
+        if (Status status = set_up_device(); !status) return status;
+        begin();
+        return success();
+    }
+
+    FrameRecord draw(const FrameCameras& cameras) {
+        FrameRecord record = draw_once(0, cameras);
+        if (levels_) levels_->observe(record);
+        learn(record);
+        return record;
+    }
+
+    Status restart() {
+        Result<MethodOptions> method_options = choose_method_options();
+        if (!method_options) return method_options.error();
+        if (method_.octree)
+            method_.planner = make_octree_planner(options_.method, *method_.octree, *method_options);
+        else if (Status status = build(*method_options); !status)
+            return status;
+        answers_.clear();
+        plan_.clear();
+        begin();
+        return success();
+    }
+
+    Status resize(PictureSize size) {
+        Result<gl::RenderTarget> target = gl::RenderTarget::create(size.width, size.height);
+        if (!target) return target.error();
+        target_.emplace(std::move(target).value());
+        return success();
+    }
+
+    [[nodiscard]] const PreparedMethod& method() const { return method_; }
+    [[nodiscard]] const FramePlan& plan() const { return plan_; }
+    [[nodiscard]] gl::RenderTarget& target() { return *target_; }
+    [[nodiscard]] ClipDepth clip_depth() const { return clip_depth_; }
+
+    PicturedPlan pictured(const View& culling, double time_s) {
+        place_objects(scene_, time_s, placements_);
+        if (levels_) all_levels_ = levels_->complete(input_for(culling), plan_);
+        plan_everything(culling);
+        return describe_plan(culling);
+    }
+
+    void picture(PlanPicture& picture, const PicturedPlan& plan, const View& from, const PlanMarks& marks) {
+        picture.draw(plan, from, marks, *executor_);
     }
 
     void warm_up() { draw_frame(0); }
 
     Status walk(int frame) {
         FrameRecord record = draw_frame(frame);
-        if (running_ && record.predicted_ms) {
-            // Queries are priced apart, by what they asked about.
-            const double query_ms = record.occlusion ? record.occlusion->query_ms : 0.0;
-            const Work draws = without_queries(record.work);
-            record.running_predicted_ms = 1e-6 * running_->predict_ns(draws) + query_ms;
-            if (record.frame_ms > query_ms) running_->observe({draws, 1e6 * (record.frame_ms - query_ms)});
-        }
+        learn(record);
         report_.plan_hash = plan_hash(plan_, report_.plan_hash);
         if (options_.visible_set) place_all(frame);
         if (options_.visible_set) record.visible_set_indices = visible_set_indices(frame);
@@ -162,46 +198,71 @@ class WalkSession::Impl {
     [[nodiscard]] const WalkReport& report() const { return report_; }
 
   private:
-    /// The method, ready to plan, and what the report says of it.
-    Status prepare() {
+    /// As before the first frame.
+    void begin() {
+        make_movers();
+        levels_.reset();
+        if (!ground_.chains.empty() && (options_.lod_error_px > 0.0 || options_.budget_ms))
+            levels_.emplace(scene_, ground_.chains, options_, constants_ ? &constants_->profile : nullptr);
+        running_.reset();
+        if (constants_) running_.emplace(constants_->profile);
+    }
+
+    /// Constants follow the frames; the frame keeps what they foretold.
+    void learn(FrameRecord& record) {
+        if (running_ && record.predicted_ms) {
+            // Queries are priced apart, by what they asked about.
+            const double query_ms = record.occlusion ? record.occlusion->query_ms : 0.0;
+            const Work draws = without_queries(record.work);
+            record.running_predicted_ms = 1e-6 * running_->predict_ns(draws) + query_ms;
+            if (record.frame_ms > query_ms) running_->observe({draws, 1e6 * (record.frame_ms - query_ms)});
+        }
+    }
+
+    /// What the method is built and planned with, and why it asks nothing where it was to ask.
+    Result<MethodOptions> choose_method_options() {
         if (options_.budget_ms && !constants_)
             return Error{fmt::format("--budget: needs timing constants, and {}", ground_.chosen.why_not)};
         Result<RivalOptions> rival = parse_rival(options_.hierarchy, options_.tune);
         if (!rival) return rival.error();
         MethodOptions method_options{
-            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value(), frame_seconds()};
+            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value(), pace_.longest_step_s()};
         if (constants_)
             method_options.costs = draw_costs(constants_->profile, options_.submission == "multi");
-        std::string why_no_occlusion;
+        why_no_occlusion_.clear();
         if (options_.method == "rhview" || options_.method == "rhview-seed") {
             list_object_indices();
             Result<std::optional<OcclusionOptions>> occlusion =
-                choose_occlusion(options_, ground_.wanted, constants_, ground_.size, why_no_occlusion);
+                choose_occlusion(options_, ground_.wanted, constants_, ground_.size, why_no_occlusion_);
             if (!occlusion) return occlusion.error();
             method_options.occlusion = *occlusion;
             if (method_options.occlusion) method_options.occlusion->object_indices = object_indices_;
         }
+        return method_options;
+    }
+
+    Status build(const MethodOptions& method_options) {
         const std::optional<BakedParts>& baked = ground_.loaded.baked;
         Result<PreparedMethod> method =
             prepare_method(options_.method, scene_, method_options, baked ? &baked->octree : nullptr);
         if (!method) return method.error();
         method_ = std::move(method).value();
-        report_ = describe(options_, ground_, method_);
-        report_.why_no_occlusion = why_no_occlusion;
-        if (method_options.occlusion) report_.query_costs = method_options.occlusion->costs;
         return success();
     }
 
-    /// The greatest step of the path's time between frames.
-    [[nodiscard]] double frame_seconds() const {
-        double most = 0.0;
-        for (int frame = 1; frame < options_.frames; ++frame)
-            most = std::max(most, path_.time_of_frame(frame, options_.frames) -
-                                      path_.time_of_frame(frame - 1, options_.frames));
-        return most;
+    /// The method, ready to plan, and what the report says of it.
+    Status prepare() {
+        const Result<MethodOptions> method_options = choose_method_options();
+        if (!method_options) return method_options.error();
+        if (Status status = build(*method_options); !status) return status;
+        report_ = describe(options_, ground_, method_);
+        report_.why_no_occlusion = why_no_occlusion_;
+        if (method_options->occlusion) report_.query_costs = method_options->occlusion->costs;
+        return success();
     }
 
     void list_object_indices() {
+        object_indices_.clear();
         const auto count = [&](const auto& placed) {
             const SceneMesh& mesh = scene_.meshes[index_of(placed.mesh)];
             object_indices_.push_back(static_cast<std::uint32_t>(mesh.indices.size()));
@@ -255,7 +316,7 @@ class WalkSession::Impl {
 
     [[nodiscard]] View view_of(int frame) const {
         const double aspect = static_cast<double>(target_->width()) / target_->height();
-        return path_.view_of_frame(frame, options_.frames, aspect, clip_depth_);
+        return pace_.view_of(frame, aspect, clip_depth_);
     }
 
     [[nodiscard]] gl::AnswerCounters answer_counters() const {
@@ -264,7 +325,9 @@ class WalkSession::Impl {
 
     /// The same of a method that draws and asks in turns. What only the device counts is not counted:
     /// OpenGL knows one occlusion query at a time.
-    FrameRecord draw_in_steps(int frame, const FrameInput& input, gl::DrawOptions draw) {
+    FrameRecord draw_in_steps(int frame, const FrameCameras& cameras, gl::DrawOptions draw) {
+        place_objects(scene_, cameras.time_s, placements_);
+        const FrameInput input = input_for(cameras.culling);
         FrameRecord record;
         record.frame = frame;
         const std::uint64_t waits = stepped_->answer_counters().blocking_reads;
@@ -272,7 +335,7 @@ class WalkSession::Impl {
         if (levels_) draw.object_levels = levels_->choose_ahead(input);
         const double chosen_ms = timer.elapsed_ms();
         if (gpu_timer_) gpu_timer_->begin();
-        stepped_->begin(*buffers_, view_of(frame), draw);
+        stepped_->begin(*buffers_, cameras.render, draw);
         const gl::WallTimer method_timer;
         const double begun_ms = stepped_->device_ms();
         method_.rival->method->draw(input, *stepped_, drawn_);
@@ -311,6 +374,8 @@ class WalkSession::Impl {
 
     /// Where `rhview` plans, what it does not draw sleeps, and is not touched; the others want to know all.
     void make_movers() {
+        place_objects(scene_, 0.0, placements_);
+        movers_.reset();
         if (scene_.dynamic_objects.empty() || options_.method != "rhview") return;
         movers_.emplace();
         for (std::uint32_t i = 0; i < scene_.object_count(); ++i)
@@ -339,34 +404,29 @@ class WalkSession::Impl {
     }
 
     /// One drawing of the frame; the first of several counts, all of them are timed.
-    FrameRecord draw_once(int frame) {
-        const View view = view_of(frame);
-        const double time_s = path_.time_of_frame(frame, options_.frames);
+    FrameRecord draw_once(int frame, const FrameCameras& cameras) {
         gl::DrawOptions draw;
         draw.placements = placements_.scene_from_mesh;
         draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
         draw.counter = &*work_counter_;
         target_->begin(clip_depth_, kSky);
         gl::finish();
-        if (stepped_) {
-            place_objects(scene_, time_s, placements_);
-            return draw_in_steps(frame, input_for(culling_view_of(frame)), draw);
-        }
+        if (stepped_) return draw_in_steps(frame, cameras, draw);
         FrameRecord record;
         record.frame = frame;
         const gl::WallTimer timer;
-        move_objects(time_s);
-        FrameInput input = input_for(culling_view_of(frame));
+        move_objects(cameras.time_s);
+        FrameInput input = input_for(cameras.culling);
         if (movers_) movers_->describe(input);
         const double moved_ms = timer.elapsed_ms();
         method_.planner->absorb(answers_);
         method_.planner->plan(input, plan_);
         if (levels_) choose_levels(input, record);
         record.cull_ms = timer.elapsed_ms() - moved_ms;
-        if (movers_) place_planned(time_s);
+        if (movers_) place_planned(cameras.time_s);
         if (gpu_timer_) gpu_timer_->begin();
         work_counter_->begin();
-        const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, view, draw);
+        const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, cameras.render, draw);
         work_counter_->end();
         if (gpu_timer_) gpu_timer_->end();
         gl::finish();
@@ -426,11 +486,12 @@ class WalkSession::Impl {
     }
 
     FrameRecord draw_frame(int frame) {
-        FrameRecord record = draw_once(frame);
+        const FrameCameras cameras{culling_view_of(frame), view_of(frame), pace_.time_of(frame)};
+        FrameRecord record = draw_once(frame, cameras);
         std::vector<double> frame_ms{record.frame_ms}, cull_ms{record.cull_ms},
             gpu_ms{record.gpu_ms.value_or(0.0)};
         for (int i = 1; i < options_.repeats; ++i) {
-            const FrameRecord again = draw_once(frame);
+            const FrameRecord again = draw_once(frame, cameras);
             frame_ms.push_back(again.frame_ms);
             cull_ms.push_back(again.cull_ms);
             gpu_ms.push_back(again.gpu_ms.value_or(0.0));
@@ -453,7 +514,7 @@ class WalkSession::Impl {
 
     /// For comparisons: every object, drawn or not, where it is and as it would be drawn.
     void place_all(int frame) {
-        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        place_objects(scene_, pace_.time_of(frame), placements_);
         if (levels_) all_levels_ = levels_->complete(input_for(culling_view_of(frame)), plan_);
     }
 
@@ -465,6 +526,31 @@ class WalkSession::Impl {
         return indices;
     }
 
+    /// At the levels of the last comparison.
+    void plan_everything(const View& view) {
+        reference_->plan(input_for(view), everything_);
+        if (levels_)
+            for (const ObjectId object : everything_.objects)
+                everything_.object_levels.push_back(all_levels_[index_of(object)]);
+    }
+
+    /// Valid until the next frame; all objects are placed.
+    PicturedPlan describe_plan(const View& culling) {
+        to_show_.clear();
+        if (options_.method == "rhview")
+            append_ranges_to_show(*method_.octree, make_frustum(culling, scene_.origin),
+                                  make_viewpoint(culling, scene_.origin), to_show_);
+        return {everything_,
+                plan_,
+                answers_,
+                to_show_,
+                [this](std::uint32_t chosen) { return method_.bounds_of(chosen); },
+                *buffers_,
+                bounds_,
+                culling,
+                placements_.scene_from_mesh};
+    }
+
     /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
     Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
         const View view = view_of(frame);
@@ -472,10 +558,7 @@ class WalkSession::Impl {
         target_->read_depth(culled_depths_);
         std::optional<gl::Picture> culled;
         if (pictured) culled.emplace(target_->read_colour());
-        reference_->plan(input_for(view), everything_);
-        if (levels_)
-            for (const ObjectId object : everything_.objects)
-                everything_.object_levels.push_back(all_levels_[index_of(object)]);
+        plan_everything(view);
         gl::DrawOptions draw;
         draw.placements = placements_.scene_from_mesh;
         target_->begin(clip_depth_, kSky);
@@ -492,15 +575,7 @@ class WalkSession::Impl {
 
         gl::Picture reference = target_->read_colour();
         gl::Picture difference = gl::difference_picture(reference, culled_depths_, reference_depths_);
-        const View culling_view = culling_view_of(frame);
-        std::vector<DrawRange> to_show;
-        if (options_.method == "rhview")
-            append_ranges_to_show(*method_.octree, make_frustum(culling_view, scene_.origin),
-                                  make_viewpoint(culling_view, scene_.origin), to_show);
-        gl::Picture above = above_->draw(
-            everything_, plan_, answers_, to_show,
-            [&](std::uint32_t chosen) { return method_.bounds_of(chosen); }, *buffers_, bounds_, culling_view,
-            placements_.scene_from_mesh, *executor_);
+        gl::Picture above = above_->draw(describe_plan(culling_view_of(frame)), *executor_);
         culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
                                   record.work.draw_calls, record.work.indices * 1e-6));
         reference.label("everything drawn");
@@ -525,7 +600,7 @@ class WalkSession::Impl {
         ReferenceFrame& reference = *ground_.reference;
         const View view = view_of(frame);
         if (reference.frame != frame) {
-            place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+            place_objects(scene_, pace_.time_of(frame), placements_);
             reference_->plan(input_for(view), everything_);
             gl::DrawOptions draw;
             draw.placements = placements_.scene_from_mesh;
@@ -542,7 +617,7 @@ class WalkSession::Impl {
     const WalkGround& ground_;
     const std::optional<UserConstants>& constants_;
     const Scene& scene_;
-    const CameraPath& path_;
+    WalkPace pace_;
     PreparedMethod method_;
     std::vector<std::uint32_t> object_indices_;  ///< what the planner refers to
     WalkReport report_;
@@ -569,6 +644,8 @@ class WalkSession::Impl {
     FramePlan plan_;
     std::vector<QueryAnswer> answers_;  ///< to the queries of the frame before
     FramePlan everything_;
+    std::vector<DrawRange> to_show_;
+    std::string why_no_occlusion_;
     std::vector<float> culled_depths_;
     std::vector<float> reference_depths_;
     std::optional<gl::Picture> kept_;  ///< the culled frame, where its error is measured
@@ -600,6 +677,43 @@ Status WalkSession::finish() {
 
 const WalkReport& WalkSession::report() const {
     return impl_->report();
+}
+
+FrameRecord WalkSession::draw(const FrameCameras& cameras) {
+    return impl_->draw(cameras);
+}
+
+Status WalkSession::restart() {
+    return impl_->restart();
+}
+
+Status WalkSession::resize(PictureSize size) {
+    return impl_->resize(size);
+}
+
+const PreparedMethod& WalkSession::method() const {
+    return impl_->method();
+}
+
+const FramePlan& WalkSession::plan() const {
+    return impl_->plan();
+}
+
+gl::RenderTarget& WalkSession::target() {
+    return impl_->target();
+}
+
+ClipDepth WalkSession::clip_depth() const {
+    return impl_->clip_depth();
+}
+
+PicturedPlan WalkSession::pictured(const View& culling, double time_s) {
+    return impl_->pictured(culling, time_s);
+}
+
+void WalkSession::picture(PlanPicture& picture, const PicturedPlan& plan, const View& from,
+                          const PlanMarks& marks) {
+    impl_->picture(picture, plan, from, marks);
 }
 
 }  // namespace rhview::cli

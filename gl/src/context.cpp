@@ -93,6 +93,11 @@ std::string gl_text(GLenum name) {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
+void forward_debug_messages() {
+    glEnable(GL_DEBUG_OUTPUT);
+    glDebugMessageCallback(forward_to_log, nullptr);
+}
+
 bool has_reset_status() {
     return epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
 }
@@ -122,7 +127,7 @@ struct Context::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State() {
-        if (context != EGL_NO_CONTEXT) {
+        if (context != EGL_NO_CONTEXT) {  // an adopted one is not ours
             eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             eglDestroyContext(display, context);
         }
@@ -190,9 +195,23 @@ Result<Context> Context::create_headless(const ContextOptions& options) {
         return Error{"OpenGL 4.3 or newer without a window is needed, and there is none (" + failures +
                      "); install a driver, libgl1-mesa-dri for example"};
     eglMakeCurrent(best->display, EGL_NO_SURFACE, EGL_NO_SURFACE, best->context);
-    glEnable(GL_DEBUG_OUTPUT);
-    glDebugMessageCallback(forward_to_log, nullptr);
+    forward_debug_messages();
     return Context(std::move(best));
+}
+
+Result<Context> Context::adopt_current() {
+    // Without a current context libepoxy ends the process at the first call.
+    void* library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
+    const bool current = library != nullptr && eglGetCurrentContext() != EGL_NO_CONTEXT;
+    if (library != nullptr) dlclose(library);
+    if (!current) return Error{"no EGL context is current on this thread; make the window's context current"};
+    auto state = std::make_unique<State>();
+    state->device = describe_device();
+    if (epoxy_gl_version() < kMinimumVersion)
+        return Error{"OpenGL 4.3 or newer is needed; the window has " + state->device.version + " on " +
+                     state->device.renderer};
+    forward_debug_messages();
+    return Context(std::move(state));
 }
 
 std::string describe_reset(unsigned status) {

@@ -16,6 +16,24 @@
 
 namespace rhview::gl {
 
+namespace {
+
+Picture read_framebuffer(GLuint name, int width, int height) {
+    Picture picture(width, height);
+    const auto row_bytes = static_cast<std::size_t>(width) * 3;
+    std::vector<std::uint8_t> rows(row_bytes * static_cast<std::size_t>(height));
+    const TargetGuard guard;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, name);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+    for (int y = 0; y < height; ++y)
+        std::copy_n(rows.data() + row_bytes * static_cast<std::size_t>(height - 1 - y), row_bytes,
+                    picture.row(y));
+    return picture;
+}
+
+}  // namespace
+
 Renderbuffer make_renderbuffer(unsigned format, int width, int height) {
     GLuint name = 0;
     glGenRenderbuffers(1, &name);
@@ -77,17 +95,20 @@ void RenderTarget::read_depth(std::vector<float>& depths) {
 }
 
 Picture RenderTarget::read_colour() {
-    Picture picture(width_, height_);
-    const auto row_bytes = static_cast<std::size_t>(width_) * 3;
-    std::vector<std::uint8_t> rows(row_bytes * static_cast<std::size_t>(height_));
-    const TargetGuard guard;
+    return read_framebuffer(framebuffer_.name(), width_, height_);
+}
+
+void RenderTarget::show(int x, int y, int width, int height) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
-    for (int y = 0; y < height_; ++y)
-        std::copy_n(rows.data() + row_bytes * static_cast<std::size_t>(height_ - 1 - y), row_bytes,
-                    picture.row(y));
-    return picture;
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    const bool scaled = width != width_ || height != height_;
+    glBlitFramebuffer(0, 0, width_, height_, x, y, x + width, y + height, GL_COLOR_BUFFER_BIT,
+                      scaled ? GL_LINEAR : GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+Picture read_window(int width, int height) {
+    return read_framebuffer(0, width, height);
 }
 
 std::size_t count_missing_pixels(std::span<const float> culled, std::span<const float> reference) {

@@ -143,9 +143,10 @@ View CameraPath::view_at(double time_s, double aspect, ClipDepth clip_depth) con
 
 double CameraPath::time_of_frame(int frame, int frames) const {
     RHVIEW_ASSERT(frame >= 0 && frame < frames);
-    const double fraction = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 0.0;
-    const double first = keys.front().time_s;
-    return first + fraction * (keys.back().time_s - first);
+    const double first = keys.front().time_s, last = keys.back().time_s;
+    if (frame == 0 || frame == frames - 1) return frame == 0 ? first : last;
+    // The product first: times that are exact, such as whole 64ths of a second, stay exact.
+    return first + static_cast<double>(frame) * (last - first) / (frames - 1);
 }
 
 View CameraPath::view_of_frame(int frame, int frames, double aspect, ClipDepth clip_depth) const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -163,6 +164,22 @@ Result<CameraPath> load_camera_path(const std::filesystem::path& file) {
     }
     if (stream.bad()) return Error{name + ": the file cannot be read to its end"};
     return parse_camera_path(text, name);
+}
+
+std::string to_json(const CameraPath& path) {
+    const auto vector = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
+    // A key a line: such a file can be read, and cut, by hand.
+    std::string text = fmt::format(
+        "{{\"schema\": \"{}\", \"fov_y_deg\": {}, \"near\": {}, \"far\": {}, \"up\": {},\n", kSchema,
+        Json(path.fov_y_deg).dump(), Json(path.near_m).dump(),
+        std::isinf(path.far_m) ? "\"infinity\"" : Json(path.far_m).dump(), vector(path.up).dump());
+    text += " \"keys\": [";
+    for (std::size_t i = 0; i < path.keys.size(); ++i) {
+        const CameraKey& key = path.keys[i];
+        text += fmt::format("{}\n  {{\"time\": {}, \"eye\": {}, \"target\": {}}}", i > 0 ? "," : "",
+                            Json(key.time_s).dump(), vector(key.eye).dump(), vector(key.target).dump());
+    }
+    return text + "]}\n";
 }
 
 }  // namespace rhview

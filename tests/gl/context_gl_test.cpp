@@ -54,6 +54,24 @@ TEST_F(GlTest, drivers_debug_messages_reach_the_log) {
     set_log_callback(previous);
 }
 
+TEST_F(GlTest, a_context_of_the_application_is_described_and_left_alone) {
+    {
+        const Result<Context> adopted = Context::adopt_current();
+        ASSERT_TRUE(adopted.ok()) << adopted.error().message;
+        EXPECT_EQ(adopted->device().renderer, context_->device().renderer);
+        EXPECT_EQ(adopted->device().clip_control, context_->device().clip_control);
+    }
+    EXPECT_TRUE(check_device().ok());
+    EXPECT_EQ(take_error(), "");
+    EXPECT_NE(glGetString(GL_VERSION), nullptr);
+}
+
+TEST(Context, that_is_not_current_is_not_adopted) {
+    const Result<Context> adopted = Context::adopt_current();
+    ASSERT_FALSE(adopted.ok());
+    EXPECT_NE(adopted.error().message.find("make the window's context current"), std::string::npos);
+}
+
 TEST_F(GlTest, contexts_come_and_go) {
     for (int i = 0; i < 3; ++i) {
         target_.reset();

@@ -233,6 +233,50 @@ TEST(CameraPath, files_that_cannot_be_read_are_refused_by_name) {
     std::filesystem::remove(file);
 }
 
+TEST(CameraPath, written_as_text_comes_back_to_the_last_bit) {
+    CameraPath path;
+    path.fov_y_deg = 100.0 / 3.0;
+    path.near_m = 0.1;
+    path.far_m = std::numeric_limits<double>::infinity();
+    path.up = {0.1, 1.0 / 7.0, 1e-17};
+    path.keys = {{0.1, {1e7 / 3.0, -2.0, 1e-300}, {1.0, 2.0, 3.0}},
+                 {2e5 / 3.0, {1.0, 2.0, 3.0}, {4.0, 2.0, 3.1}}};
+    for (const double far : {path.far_m, 2000.0 / 3.0}) {
+        path.far_m = far;
+        const Result<CameraPath> again = parse_camera_path(to_json(path), "again");
+        ASSERT_TRUE(again.ok()) << again.error().message;
+        EXPECT_EQ(again->fov_y_deg, path.fov_y_deg);
+        EXPECT_EQ(again->near_m, path.near_m);
+        EXPECT_EQ(again->far_m, path.far_m);
+        EXPECT_EQ(again->up, path.up);
+        ASSERT_EQ(again->keys.size(), path.keys.size());
+        for (std::size_t i = 0; i < path.keys.size(); ++i) {
+            EXPECT_EQ(again->keys[i].time_s, path.keys[i].time_s);
+            EXPECT_EQ(again->keys[i].eye, path.keys[i].eye);
+            EXPECT_EQ(again->keys[i].target, path.keys[i].target);
+        }
+    }
+}
+
+TEST(CameraPath, a_key_every_64th_of_a_second_is_walked_as_it_was_flown) {
+    for (const int frames : {2, 3, 7, 50, 97, 1000}) {
+        CameraPath path;
+        for (int i = 0; i < frames; ++i) {
+            const double angle = 0.1 * i;
+            const Vec eye(100.0 / 3.0 * i, 2.0 / 7.0, 0.1 * i);
+            path.keys.push_back({i / 64.0, eye, eye + Vec(std::sin(angle), 0.2, std::cos(angle))});
+        }
+        for (int i = 0; i < frames; ++i) {
+            CameraPath alone = path;
+            alone.keys = {path.keys[static_cast<std::size_t>(i)], path.keys[static_cast<std::size_t>(i)]};
+            EXPECT_EQ(path.time_of_frame(i, frames), i / 64.0);
+            const View walked = path.view_of_frame(i, frames, 1.5, ClipDepth::ReversedZeroToOne);
+            const View flown = alone.view_at(0.0, 1.5, ClipDepth::ReversedZeroToOne);
+            ASSERT_EQ(walked.camera_from_world, flown.camera_from_world) << i << " of " << frames;
+        }
+    }
+}
+
 TEST(WalkthroughOfBounds, is_valid_and_keeps_the_scene_in_range_for_any_bounds) {
     const struct {
         Aabb bounds;

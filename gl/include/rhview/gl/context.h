@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 /// \file
-/// An OpenGL context without a window: EGL, on a GPU where there is one, else on a software renderer.
+/// An OpenGL context without a window: EGL, on a GPU where there is one, else on a software renderer. Or one
+/// that the application made, with a window.
 #pragma once
 
 #include <memory>
@@ -25,11 +26,17 @@ struct ContextOptions {
     bool debug = false;  ///< a debug context: the driver checks more and is slower
 };
 
-/// Current on the thread that made it, until destroyed. The driver's debug messages go to the library's log.
+/// Current on the thread that made it, until destroyed (an adopted one stays the application's). The driver's
+/// debug messages go to the library's log.
 class Context {
   public:
     /// OpenGL 4.5 core, or 4.3 where that is all there is. An error names what was found on each device.
     static Result<Context> create_headless(const ContextOptions& options = {});
+
+    /// Describes the context that is current on this thread, and forwards its debug messages. Its owner keeps
+    /// it current while the library is used, and destroys it afterwards. An error where there is none, or one
+    /// older than OpenGL 4.3.
+    static Result<Context> adopt_current();
 
     Context(Context&&) noexcept;
     Context& operator=(Context&&) noexcept;

@@ -32,6 +32,9 @@ class RenderTarget {
     void read_depth(std::vector<float>& depths);
     /// The picture, top row first; waits for the drawing.
     [[nodiscard]] Picture read_colour();
+    /// Copies the colours to the window's framebuffer, which stays bound, scaled to `width` × `height` pixels
+    /// from (x, y), its lower left corner.
+    void show(int x, int y, int width, int height);
 
   private:
     Framebuffer framebuffer_;
@@ -40,6 +43,9 @@ class RenderTarget {
     int width_ = 0;
     int height_ = 0;
 };
+
+/// What the window's framebuffer holds before it is shown, top row first; waits for the drawing.
+Picture read_window(int width, int height);
 
 /// Pixels whose depth differs in any bit: the oracle of `--check`. The depth buffer is the extreme over all
 /// fragments, so it doesn't depend on draw order, and any difference is an error of the culling. The spans

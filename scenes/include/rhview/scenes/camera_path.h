@@ -45,7 +45,9 @@ struct CameraPath {
     /// leaves a corridor that its keys keep to), the viewing direction turns along the great circle.
     [[nodiscard]] View view_at(double time_s, double aspect, ClipDepth clip_depth) const;
 
-    /// When frame `frame` of `frames` is, evenly spaced from the first key to the last.
+    /// When frame `frame` of `frames` is, evenly spaced from the first key to the last. A path with a key
+    /// every 64th of a second and as many frames as keys gives the keys' own times, and so their own cameras,
+    /// to the last bit: what was flown is walked again.
     [[nodiscard]] double time_of_frame(int frame, int frames) const;
     /// The view at that time.
     [[nodiscard]] View view_of_frame(int frame, int frames, double aspect, ClipDepth clip_depth) const;
@@ -57,6 +59,8 @@ Status validate(const CameraPath& path);
 /// Parses the text of a path file; `source_name` is what errors call it.
 Result<CameraPath> parse_camera_path(std::string_view json, const std::string& source_name);
 Result<CameraPath> load_camera_path(const std::filesystem::path& file);
+/// The text of a path file; parsing it gives the same path to the last bit. `path` is valid.
+std::string to_json(const CameraPath& path);
 
 /// A deterministic walkthrough of a scene that brings none: at eye level through the middle of its bounds and
 /// around, then a climb to an overview. Depends on the bounds alone. `bounds` is not empty; it is relative to
