@@ -5,7 +5,8 @@
 /// The regular grid with temporal bounding volumes on balls in a box, after Batagelo 2002, chapter 4: hidden
 /// objects (his figure 4.3), a walk (4.5), an empty scene by field of view (4.6), resolutions (4.7, 4.8).
 ///
-/// usage: rhview_grid_visibility [hidden|walk|traversal|resolution …]; CSV on standard output, all without.
+/// usage: rhview_grid_visibility [--quick] [hidden|walk|traversal|resolution …]; CSV on standard output, all
+/// without; --quick: few frames and objects, only to see that it runs.
 /// The world is that of the named scene `spheres`. Times are of planning alone: no picture is drawn. The
 /// exact set is that of a picture of 1280 × 720 points, found ball by ball. `pvs` is what the method would
 /// draw, `in_view` what frustum culling would.
@@ -195,6 +196,13 @@ void print_row(const char* test, const glm::ivec3& cells, double x, const std::v
     std::fflush(stdout);
 }
 
+struct Length {
+    std::size_t most_hidden = 20000;
+    int hidden_frames = 900;  ///< the last third counts
+    int walk_frames = 150;
+    int finest = 150;  ///< cells along each side
+};
+
 std::size_t count_in_view(const FrameInput& input) {
     std::vector<ObjectId> all;
     append_visible_objects(make_frustum(input.culling_view), input.object_boxes, all);
@@ -202,8 +210,9 @@ std::size_t count_in_view(const FrameInput& input) {
 }
 
 /// Figure 4.3: hidden moving objects, all outside of the view; the observer looks out of the box.
-void run_hidden(const glm::ivec3& cells) {
+void run_hidden(const glm::ivec3& cells, const Length& length) {
     for (const std::size_t count : {0u, 500u, 1000u, 2000u, 5000u, 10000u, 20000u}) {
+        if (count > length.most_hidden) break;
         SphereWorldOptions options;
         options.spheres = options.moving = count;
         options.greatest_radius = 1.5;
@@ -213,11 +222,11 @@ void run_hidden(const glm::ivec3& cells) {
         FramePlan plan;
         std::vector<double> ms;
         double volumes = 0.0;
-        for (int frame = 0; frame < 900; ++frame) {
+        for (int frame = 0; frame < length.hidden_frames; ++frame) {
             flight.set_frame(frame);
             const double t = plan_ms(planner, seen({-1, 30, 50}, {-1, 0, 0}, 55.0, flight.boxes()), plan);
-            if (frame >= 600) ms.push_back(t);
-            volumes += static_cast<double>(planner.statistics().volumes) / 900.0;
+            if (3 * frame >= 2 * length.hidden_frames) ms.push_back(t);
+            volumes += static_cast<double>(planner.statistics().volumes) / length.hidden_frames;
         }
         print_row("hidden", cells, static_cast<double>(count), ms, static_cast<double>(plan.objects.size()),
                   0.0, 0.0, 0.0, volumes, 0);
@@ -225,12 +234,12 @@ void run_hidden(const glm::ivec3& cells) {
 }
 
 /// Figures 4.4 and 4.5: 150 frames through 4,800 resting and 200 moving balls; a row for every fifth.
-void run_walk(const glm::ivec3& cells) {
+void run_walk(const glm::ivec3& cells, const Length& length) {
     Flight flight({});
     GridPlanner planner({}, {}, {}, flight.objects(), grid_of(cells));
     FramePlan plan;
     ExactSet exact;
-    for (int frame = 0; frame < 150; ++frame) {
+    for (int frame = 0; frame < length.walk_frames; ++frame) {
         flight.set_frame(frame);
         const double turn = frame / 150.0;
         const glm::dvec3 eye = flight.world().way(turn);
@@ -259,13 +268,13 @@ void run_traversal(const glm::ivec3& cells) {
 }
 
 /// Figures 4.7 and 4.8: 4,800 resting balls, one place to stand, resolution N × N × N.
-void run_resolution() {
+void run_resolution(const Length& length) {
     const Flight flight(still_world());
     const glm::dvec3 eye = flight.world().way(0.0);
     const FrameInput input = seen(eye, 0.5 * flight.world().size - eye, 55.0, flight.boxes());
     ExactSet exact;
     const std::size_t visible = exact.count(flight, input.culling_view);
-    for (int n = 10; n <= 150; n += 10) {
+    for (int n = 10; n <= length.finest; n += 10) {
         GridPlanner planner({}, {}, {}, flight.objects(), grid_of(glm::ivec3(n)));
         FramePlan plan;
         std::vector<double> ms;
@@ -279,17 +288,20 @@ void run_resolution() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto wanted = [&](const std::string& name) {
-        return argc == 1 || std::find(argv + 1, argv + argc, name) != argv + argc;
+    std::vector<std::string> names(argv + 1, argv + argc);
+    const bool quick = std::erase(names, "--quick") > 0;
+    const Length length = quick ? Length{500, 30, 11, 30} : Length{};
+    const auto wanted = [&](const char* name) {
+        return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
     };
     std::printf(
         "test,cells,x,plan_ms_mean,plan_ms_median,plan_ms_max,pvs,exact,in_view,cells_reached,volumes,"
         "missing\n");
     for (const glm::ivec3& cells : {glm::ivec3(50, 30, 50), glm::ivec3(100, 60, 100)}) {
-        if (wanted("hidden")) run_hidden(cells);
-        if (wanted("walk")) run_walk(cells);
+        if (wanted("hidden")) run_hidden(cells, length);
+        if (wanted("walk")) run_walk(cells, length);
         if (wanted("traversal")) run_traversal(cells);
     }
-    if (wanted("resolution")) run_resolution();
+    if (wanted("resolution")) run_resolution(length);
     return 0;
 }

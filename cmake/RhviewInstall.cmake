@@ -3,7 +3,7 @@
 #
 # Install rules and the CMake package. The core modules are the component `core`; every other module is a component of
 # its own name, with its own export file, so that find_package(rhview) looks for GLM, oneTBB, meshoptimizer and
-# Highway alone.
+# Highway alone. `capi`, a shared library, needs nothing.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -29,7 +29,11 @@ endfunction()
 function(rhview_requirements_of module packages_result components_result)
   set(packages "")
   set(components "")
-  get_target_property(libraries rhview_${module} LINK_LIBRARIES)
+  set(libraries "")
+  get_target_property(type rhview_${module} TYPE)
+  if(NOT type STREQUAL "SHARED_LIBRARY")
+    get_target_property(libraries rhview_${module} LINK_LIBRARIES)
+  endif()
   foreach(library IN LISTS libraries)
     if(library MATCHES "^rhview::(.+)$")
       rhview_component_of(${CMAKE_MATCH_1} component)
@@ -52,7 +56,36 @@ function(rhview_install_module module component)
   endforeach()
   install(TARGETS rhview_${module} EXPORT rhview_${component}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
     ${file_sets})
+endfunction()
+
+# pkg-config, for who builds without CMake. Paths are relative to the file: an install can be moved.
+function(rhview_install_pkg_config name)
+  cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_LIBDIR BASE_DIRECTORY "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig"
+    OUTPUT_VARIABLE libdir)
+  cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_INCLUDEDIR BASE_DIRECTORY "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig"
+    OUTPUT_VARIABLE includedir)
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in" "${PROJECT_BINARY_DIR}/cmake/${name}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/cmake/${name}.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+# Written from the program's own --help whenever that was built.
+function(rhview_install_man_page)
+  find_package(Python3 COMPONENTS Interpreter)
+  if(NOT Python3_Interpreter_FOUND OR CMAKE_CROSSCOMPILING)
+    message(STATUS "rhview: no Python, or a program that does not run here: there will be no manual page")
+    return()
+  endif()
+  set(page "${PROJECT_BINARY_DIR}/man/rhview.1")
+  set(script "${PROJECT_SOURCE_DIR}/scripts/man_page.py")
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/man")
+  add_custom_command(OUTPUT "${page}" DEPENDS rhview_cli "${script}" VERBATIM
+    COMMAND ${CMAKE_COMMAND} -E env "ASAN_OPTIONS=detect_leaks=0"
+      "${Python3_EXECUTABLE}" "${script}" "$<TARGET_FILE:rhview_cli>" "${page}")
+  add_custom_target(rhview_man_page ALL DEPENDS "${page}")
+  install(FILES "${page}" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endfunction()
 
 function(rhview_install)
@@ -99,6 +132,16 @@ function(rhview_install)
     install(TARGETS rhview_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     install(FILES "${PROJECT_SOURCE_DIR}/scripts/report.py" "${PROJECT_SOURCE_DIR}/scripts/report_page.py"
       DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/rhview)
+    rhview_install_man_page()
+  endif()
+
+  set(core_libraries ${RHVIEW_CORE_MODULES})
+  list(REVERSE core_libraries)
+  list(TRANSFORM core_libraries PREPEND "-lrhview_")
+  list(JOIN core_libraries " " RHVIEW_CORE_LIBRARIES)
+  rhview_install_pkg_config(rhview-cpp)
+  if(TARGET rhview_capi)
+    rhview_install_pkg_config(rhview)
   endif()
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endfunction()

@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The rhview authors
 # SPDX-License-Identifier: MIT
 #
-# rhview_module(name SOURCES … HEADERS … DEPENDS … [LIBRARIES …] [PRIVATE_LIBRARIES …])
+# rhview_module(name [SHARED] SOURCES … HEADERS … DEPENDS … [LIBRARIES …] [PRIVATE_LIBRARIES …])
 #
 # One module: static library rhview_<name>, alias rhview::<name>, include root <name>/include. DEPENDS names modules,
 # all of them on lower floors (an upward or sideways one stops the configure step); since each module has its own
 # include directory, a header of a module that is not linked cannot be found by the compiler.
+
+# SHARED: a shared library librhview instead, that holds what it depends on and shows its users none of it.
 
 include_guard(GLOBAL)
 
@@ -19,6 +21,7 @@ set(RHVIEW_FLOOR_rhoctree 2)
 set(RHVIEW_FLOOR_pipeline 3)
 set(RHVIEW_FLOOR_gl 4)
 set(RHVIEW_FLOOR_baselines 4)
+set(RHVIEW_FLOOR_capi 4)
 
 # What an engine takes: needs GLM, oneTBB, meshoptimizer and Highway. rhview::rhview links those of them that are built; the package's default
 # component holds them.
@@ -26,7 +29,11 @@ set(RHVIEW_CORE_MODULES base frustum lod timing_model occlusion_queries rhoctree
 
 # Flags of our own targets only: consumers see none of them.
 function(rhview_private_options target)
-  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_features(${target} PRIVATE cxx_std_20)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    target_compile_features(${target} PUBLIC cxx_std_20)
+  endif()
   if(MSVC)
     target_compile_options(${target} PRIVATE /W4 $<$<BOOL:${RHVIEW_WARNINGS_AS_ERRORS}>:/WX>)
   else()
@@ -48,7 +55,7 @@ function(rhview_private_options target)
 endfunction()
 
 function(rhview_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SHARED" "" "SOURCES;HEADERS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES")
   if(NOT DEFINED RHVIEW_FLOOR_${name})
     message(FATAL_ERROR "rhview_module(${name}): the module has no floor; add it to cmake/RhviewModule.cmake")
   endif()
@@ -62,11 +69,20 @@ function(rhview_module name)
     endif()
   endforeach()
 
-  add_library(rhview_${name} STATIC ${arg_SOURCES})
-  add_library(rhview::${name} ALIAS rhview_${name})
   list(TRANSFORM arg_DEPENDS PREPEND rhview::)
+  if(arg_SHARED)
+    add_library(rhview_${name} SHARED ${arg_SOURCES})
+    target_link_libraries(rhview_${name} PRIVATE ${arg_DEPENDS} ${arg_LIBRARIES} ${arg_PRIVATE_LIBRARIES})
+    # Before 1.0 a minor release may take something away.
+    set_target_properties(rhview_${name} PROPERTIES OUTPUT_NAME rhview VERSION ${PROJECT_VERSION}
+      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} CXX_VISIBILITY_PRESET hidden
+      VISIBILITY_INLINES_HIDDEN ON)
+  else()
+    add_library(rhview_${name} STATIC ${arg_SOURCES})
+    target_link_libraries(rhview_${name} PUBLIC ${arg_DEPENDS} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
+  endif()
+  add_library(rhview::${name} ALIAS rhview_${name})
   target_sources(rhview_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
-  target_link_libraries(rhview_${name} PUBLIC ${arg_DEPENDS} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
   rhview_private_options(rhview_${name})
   set_target_properties(rhview_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   set_property(GLOBAL APPEND PROPERTY RHVIEW_MODULES ${name})

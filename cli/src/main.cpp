@@ -135,6 +135,15 @@ void add_walk_options(CLI::App* walk, WalkOptions& options) {
     walk->add_option("--frames", options.frames, "Frames to measure")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
+    walk->add_option("--rate", options.rate_hz,
+                     "Frames per second of the path's own time; default: all of the path in --frames")
+        ->type_name("HZ")
+        ->check(CLI::Range(1e-3, 1e6));
+    walk->add_option("--excerpts", options.excerpts,
+                     "With --rate: so many stretches of the path, evenly spread, share the frames")
+        ->type_name("K")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
     walk->add_option("--warmup", options.warmup, "Frames drawn before, not measured")
         ->check(CLI::Range(0, 1'000'000))
         ->capture_default_str();

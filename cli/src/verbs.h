@@ -49,6 +49,8 @@ struct WalkOptions {
     int frames = 120;
     int warmup = 8;
     int repeats = 1;
+    std::optional<double> rate_hz;      ///< frames per second of the path; else all of it in `frames`
+    int excerpts = 1;                   ///< of the path, with `rate_hz`
     std::optional<std::uint32_t> leaf;  ///< else the baked file's own, or the method's
     double replica_budget = 1.0;
     InstancesWanted instances;

@@ -12,6 +12,7 @@
 #include "level_chains.h"
 #include "method.h"
 #include "rhview/gl/timer.h"
+#include "walk_pace.h"
 
 namespace rhview::cli {
 namespace {
@@ -68,6 +69,8 @@ Result<LoadedScene> load(const WalkOptions& options) {
             "--leaf {}: {} brings its octree, with leaves of at most {} triangles; bake it again with "
             "another --leaf",
             *options.leaf, options.scene, loaded->baked->octree.options.max_leaf_triangles)};
+    if (loaded)
+        if (const Status pace = check_pace(loaded->path, options); !pace) return pace.error();
     return loaded;
 }
 

@@ -22,6 +22,7 @@
 #include "rhview/timing_model/running_update.h"
 #include "statistics.h"
 #include "walk_levels.h"
+#include "walk_pace.h"
 
 namespace rhview::cli {
 namespace {
@@ -106,7 +107,7 @@ class WalkSession::Impl {
           ground_(ground),
           constants_(ground.chosen.constants),
           scene_(ground.loaded.scene),
-          path_(ground.loaded.path),
+          pace_(ground.loaded.path, options),
           reference_(make_reference(scene_)),
           bounds_(scene_.bounds()),
           clip_depth_(ground.context.device().clip_control ? ClipDepth::ReversedZeroToOne
@@ -225,7 +226,7 @@ class WalkSession::Impl {
         Result<RivalOptions> rival = parse_rival(options_.hierarchy, options_.tune);
         if (!rival) return rival.error();
         MethodOptions method_options{
-            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value(), frame_seconds()};
+            options_.leaf, options_.replica_budget, {}, {}, std::move(rival).value(), pace_.longest_step_s()};
         if (constants_)
             method_options.costs = draw_costs(constants_->profile, options_.submission == "multi");
         why_no_occlusion_.clear();
@@ -258,15 +259,6 @@ class WalkSession::Impl {
         report_.why_no_occlusion = why_no_occlusion_;
         if (method_options->occlusion) report_.query_costs = method_options->occlusion->costs;
         return success();
-    }
-
-    /// The greatest step of the path's time between frames.
-    [[nodiscard]] double frame_seconds() const {
-        double most = 0.0;
-        for (int frame = 1; frame < options_.frames; ++frame)
-            most = std::max(most, path_.time_of_frame(frame, options_.frames) -
-                                      path_.time_of_frame(frame - 1, options_.frames));
-        return most;
     }
 
     void list_object_indices() {
@@ -324,7 +316,7 @@ class WalkSession::Impl {
 
     [[nodiscard]] View view_of(int frame) const {
         const double aspect = static_cast<double>(target_->width()) / target_->height();
-        return path_.view_of_frame(frame, options_.frames, aspect, clip_depth_);
+        return pace_.view_of(frame, aspect, clip_depth_);
     }
 
     [[nodiscard]] gl::AnswerCounters answer_counters() const {
@@ -494,8 +486,7 @@ class WalkSession::Impl {
     }
 
     FrameRecord draw_frame(int frame) {
-        const FrameCameras cameras{culling_view_of(frame), view_of(frame),
-                                   path_.time_of_frame(frame, options_.frames)};
+        const FrameCameras cameras{culling_view_of(frame), view_of(frame), pace_.time_of(frame)};
         FrameRecord record = draw_once(frame, cameras);
         std::vector<double> frame_ms{record.frame_ms}, cull_ms{record.cull_ms},
             gpu_ms{record.gpu_ms.value_or(0.0)};
@@ -523,7 +514,7 @@ class WalkSession::Impl {
 
     /// For comparisons: every object, drawn or not, where it is and as it would be drawn.
     void place_all(int frame) {
-        place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+        place_objects(scene_, pace_.time_of(frame), placements_);
         if (levels_) all_levels_ = levels_->complete(input_for(culling_view_of(frame)), plan_);
     }
 
@@ -609,7 +600,7 @@ class WalkSession::Impl {
         ReferenceFrame& reference = *ground_.reference;
         const View view = view_of(frame);
         if (reference.frame != frame) {
-            place_objects(scene_, path_.time_of_frame(frame, options_.frames), placements_);
+            place_objects(scene_, pace_.time_of(frame), placements_);
             reference_->plan(input_for(view), everything_);
             gl::DrawOptions draw;
             draw.placements = placements_.scene_from_mesh;
@@ -626,7 +617,7 @@ class WalkSession::Impl {
     const WalkGround& ground_;
     const std::optional<UserConstants>& constants_;
     const Scene& scene_;
-    const CameraPath& path_;
+    WalkPace pace_;
     PreparedMethod method_;
     std::vector<std::uint32_t> object_indices_;  ///< what the planner refers to
     WalkReport report_;

@@ -52,6 +52,10 @@ void OptionPricer::price(const OcclusionCandidate& candidate, const ItemHistory&
     option = {};
     option.render_ns = usable_render_ns(candidate.render_ns);
     if (!candidate.testable || option.render_ns == 0.0f) return;
+    if (candidate.trial) {
+        option.alone = true;
+        return set_test(option, candidate, option.render_ns);
+    }
     option.alone = candidate.counts_samples || item.ask_alone;
     if (item.belief == Belief::Visible) {
         set_visible(option, candidate, item);

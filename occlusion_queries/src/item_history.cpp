@@ -63,18 +63,28 @@ Belief ItemHistories::visit(std::uint32_t item, Belief otherwise) {
     return history.belief;
 }
 
-bool ItemHistories::merge(std::uint32_t item, double p_hidden) {
+bool ItemHistories::may_try(std::uint32_t item, double p_hidden) {
     ItemHistory& history = items_[item];
-    if (history.belief == Belief::Hidden) return true;
-    if (frame_ < history.merge_after) return false;
-    history.belief = Belief::Hidden;
+    if (history.belief == Belief::Hidden || history.on_trial || frame_ < history.merge_after) return false;
     history.hidden_answers = static_cast<std::uint8_t>(keep_.answers_for(p_hidden));
-    history.ask_alone = history.turned_visible = false;
-    // Nothing was asked about it yet; answers on the way are about what it was before.
-    history.answered = 0;
-    history.since = history.tested = frame_;
-    ++doubtful_;
     return true;
+}
+
+void ItemHistories::begin_trial(std::uint32_t item) {
+    ItemHistory& history = items_[item];
+    history.on_trial = true;
+    // Answers on the way are about what it was before.
+    history.answered = 0;
+    history.since = frame_;
+}
+
+/// It says nothing of items of its kind: what was tried was chosen.
+void ItemHistories::end_trial(ItemHistory& item, const MemberAnswer& answer) {
+    item.on_trial = false;
+    item.answered = answer.asked_frame;
+    if (answer.visible) return back_off(item);
+    item.belief = Belief::Hidden;
+    item.ask_alone = item.turned_visible = false;
 }
 
 void ItemHistories::answer(const MemberAnswer& answer) {
@@ -86,6 +96,7 @@ void ItemHistories::answer(const MemberAnswer& answer) {
         answer.asked_frame - item.since < kColdFrames) {
         return;
     }
+    if (item.on_trial) return end_trial(item, answer);
     if (answer.learnt) learn(item, answer);
     if (!answer.visible) return believe_hidden(item, answer);
     if (answer.members == 1) return believe_visible(item, answer);
@@ -113,7 +124,7 @@ void ItemHistories::believe_visible(ItemHistory& item, const MemberAnswer& answe
 void ItemHistories::turn_visible(ItemHistory& item, std::uint32_t id, std::uint32_t frame) {
     item.belief = Belief::Visible;
     item.hidden_answers = 0;
-    item.ask_alone = item.turned_visible = false;
+    item.ask_alone = item.turned_visible = item.on_trial = false;
     item.visible_since = frame;
     item.tested = frame_ - std::min(frame_, random_phase(id));
 }

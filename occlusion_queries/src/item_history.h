@@ -21,11 +21,12 @@ struct ItemHistory {
     std::uint32_t tested = 0;         ///< frame of the last query; set back by the random phase
     std::uint32_t visible_since = 0;  ///< frame
     std::uint32_t merge_after = 0;    ///< frame
-    std::uint8_t hidden_answers = 0;  ///< in a row; at least 1 if hidden
+    std::uint8_t hidden_answers = 0;  ///< in a row; at least 1 if hidden; on trial: of its parts
     std::uint8_t merge_failures = 0;  ///< in a row
     Belief belief = Belief::Unknown;
     bool ask_alone = false;       ///< its last query, shared with others, saw something
     bool turned_visible = false;  ///< it was asked about as hidden last, and seen
+    bool on_trial = false;        ///< asked about as one beside its parts; `hidden_answers` are theirs
 };
 
 /// A query's word on one of its members.
@@ -55,7 +56,8 @@ class ItemHistories {
     [[nodiscard]] std::uint32_t doubtful() const { return doubtful_; }
 
     Belief visit(std::uint32_t item, Belief otherwise);
-    bool merge(std::uint32_t item, double p_hidden);
+    bool may_try(std::uint32_t item, double p_hidden);
+    void begin_trial(std::uint32_t item);
     void answer(const MemberAnswer& answer);
     /// It is drawn and cannot be asked about: the eye is in it.
     void see(std::uint32_t item);
@@ -78,6 +80,7 @@ class ItemHistories {
     void believe_visible(ItemHistory& item, const MemberAnswer& answer);
     void turn_visible(ItemHistory& item, std::uint32_t id, std::uint32_t frame);
     void back_off(ItemHistory& item);
+    void end_trial(ItemHistory& item, const MemberAnswer& answer);
     [[nodiscard]] double p_visible_hidden(const ItemHistory& item) const;
     void learn(const ItemHistory& item, const MemberAnswer& answer);
     [[nodiscard]] std::uint32_t random_phase(std::uint32_t item) const;

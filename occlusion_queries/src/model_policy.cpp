@@ -55,7 +55,8 @@ void ModelPolicy::appraise(std::span<const OcclusionCandidate> candidates, const
         const ItemHistory& item = histories[candidate.item];
         pricer.price(candidate, item, options_[i]);
         explorable_ = explorable_ || options_[i].explorable;
-        if (item.belief == Belief::Visible && candidate.pixels > 0.0f) covered_pixels_ += candidate.pixels;
+        if (item.belief == Belief::Visible && !candidate.trial && candidate.pixels > 0.0f)
+            covered_pixels_ += candidate.pixels;
     }
 }
 
@@ -64,7 +65,7 @@ bool ModelPolicy::put_occluders_in_front(std::span<const OcclusionCandidate> can
     occluders_.clear();
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
         const std::uint32_t item = candidates[i].item;
-        if (histories[item].belief != Belief::Unknown) continue;
+        if (histories[item].belief != Belief::Unknown || candidates[i].trial) continue;
         const float distance = candidates[i].distance;
         occluders_.push_back({distance == distance ? distance : 3e38f, item, i});
     }

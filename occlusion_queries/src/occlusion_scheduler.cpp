@@ -129,9 +129,9 @@ bool OcclusionScheduler::turned_visible(std::uint32_t item) const {
     return state_->histories[item].turned_visible;
 }
 
-bool OcclusionScheduler::merge(std::uint32_t item, double p_hidden) {
+bool OcclusionScheduler::may_try(std::uint32_t item, double p_hidden) {
     RHVIEW_ASSERT(item < state_->histories.size());
-    return state_->histories.merge(item, p_hidden);
+    return state_->histories.may_try(item, p_hidden);
 }
 
 void OcclusionScheduler::decide(std::span<const OcclusionCandidate> candidates, OcclusionDecisions& out) {
@@ -160,12 +160,13 @@ void OcclusionScheduler::decide(std::span<const OcclusionCandidate> candidates, 
 void OcclusionScheduler::State::decide_by_paper(std::span<const OcclusionCandidate> candidates,
                                                 QueryWriter& writer, OcclusionDecisions& out) {
     double render_ns = 0.0;
-    for (const OcclusionCandidate& candidate : candidates) render_ns += usable_render_ns(candidate.render_ns);
+    for (const OcclusionCandidate& candidate : candidates)
+        if (!candidate.trial) render_ns += usable_render_ns(candidate.render_ns);
     const bool over_budget = render_ns > settings.paper_budget_ns;
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
         const OcclusionCandidate& candidate = candidates[i];
         if (!candidate.testable) histories.see(candidate.item);
-        if (!over_budget || !candidate.testable) continue;
+        if (!over_budget || !candidate.testable || candidate.trial) continue;
         out.saved_ns += histories.p_hidden(histories[candidate.item]) * usable_render_ns(candidate.render_ns);
         writer.ask({&i, 1}, QueryWay::HardwareQuery, OcclusionAction::QueryFirst);
     }

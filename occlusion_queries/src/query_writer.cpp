@@ -28,6 +28,7 @@ double QueryWriter::ask(std::span<const std::uint32_t> members, QueryWay way, Oc
         out_.members.push_back(member);
         pending_.add_member({candidate.item, item.belief});
         item.tested = histories_.frame();
+        if (candidate.trial) histories_.begin_trial(candidate.item);
     }
     query.ticket = pending_.add_query(explores, nothing_in_front_ && action == OcclusionAction::QueryFirst);
     out_.queries.push_back(query);

@@ -149,8 +149,7 @@ void MovingObjects::put_to_sleep(std::uint32_t object) {
     std::ranges::push_heap(expiries_, later);
 }
 
-void MovingObjects::end_frame(const FramePlan& plan) {
-    seen_.assign(alive_.size(), 0);
+void MovingObjects::see(const FramePlan& plan) {
     for (const ObjectId object : plan.objects) {
         const std::size_t i = index_of(object);
         if (i >= slots_.size()) continue;
@@ -160,6 +159,11 @@ void MovingObjects::end_frame(const FramePlan& plan) {
         slot.period_s = std::max(kShorter * slot.period_s, settings_.least_period_s);
         wake(static_cast<std::uint32_t>(i));
     }
+}
+
+void MovingObjects::end_frame_of_views(std::span<const FramePlan* const> plans) {
+    seen_.assign(alive_.size(), 0);
+    for (const FramePlan* plan : plans) see(*plan);
     std::erase_if(awake_, [&](ObjectId object) {
         const std::size_t i = index_of(object);
         const bool seen = (seen_[i / 64] >> (i % 64) & 1) != 0;

@@ -61,10 +61,23 @@ NodeVisibility::NodeVisibility(const RhOctree& octree, const OcclusionOptions& o
 }
 
 void NodeVisibility::Parts::add(const Parts& part) {
-    if (!part.any) return;
-    any = true;
-    all_hidden = all_hidden && part.all_hidden;
+    any_seen = any_seen || part.any_seen;
+    hidden_ns += part.hidden_ns;
+    unknown_ns += part.unknown_ns;
     p_hidden = std::min(p_hidden, part.p_hidden);
+}
+
+NodeVisibility::Parts NodeVisibility::part_of(const OcclusionCandidate& candidate, Belief belief) const {
+    Parts part;
+    if (!candidate.testable || belief == Belief::Visible) {
+        part.any_seen = true;
+    } else if (belief == Belief::Hidden) {
+        part.hidden_ns = candidate.render_ns;
+        part.p_hidden = scheduler_.p_hidden(candidate.item);
+    } else {
+        part.unknown_ns = candidate.render_ns;
+    }
+    return part;
 }
 
 void NodeVisibility::find_split_leaves() {
@@ -174,8 +187,7 @@ NodeVisibility::Parts NodeVisibility::add_node(std::uint32_t index, bool testabl
     candidate.testable = testable;
     candidates_.push_back(candidate);
     leaf_of_candidate_.push_back(NodeId{index});
-    const bool hidden = belief == Belief::Hidden && testable;
-    return {true, hidden, hidden ? scheduler_.p_hidden(index) : 0.0};
+    return part_of(candidate, belief);
 }
 
 /// Recursion is as deep as the octree: 21 levels at most.
@@ -207,8 +219,7 @@ NodeVisibility::Parts NodeVisibility::add_piece(std::uint32_t piece, Belief othe
     candidate.render_ns = static_cast<float>(index_ns * part.index_count);
     candidate.testable = is_testable(part.bounds);
     candidates_.push_back(candidate);
-    const bool hidden = belief == Belief::Hidden && candidate.testable;
-    return {true, hidden, hidden ? scheduler_.p_hidden(item) : 0.0};
+    return part_of(candidate, belief);
 }
 
 NodeVisibility::Parts NodeVisibility::visit_pieces(std::uint32_t index, PlaneMask mask, Belief otherwise) {
@@ -221,17 +232,17 @@ NodeVisibility::Parts NodeVisibility::visit_pieces(std::uint32_t index, PlaneMas
         all.add(add_piece(p, otherwise));
         leaf_of_candidate_.push_back(NodeId{index});
     }
-    merge(index, first_candidate, all);
+    try_as_one(index, first_candidate, all);
     return all;
 }
 
-/// One candidate in place of many, if all parts of the node are hidden.
-void NodeVisibility::merge(std::uint32_t index, std::size_t first_candidate, Parts& parts) {
-    const bool one = parts.any && parts.all_hidden && candidates_.size() > first_candidate + 1;
-    if (!one || !is_testable(nodes_[index].bounds) || !scheduler_.merge(index, parts.p_hidden)) return;
-    candidates_.resize(first_candidate);
-    leaf_of_candidate_.resize(first_candidate);
-    parts = add_node(index, true, Belief::Hidden);
+/// If all parts of the node seem hidden, it is asked about as one beside them: it takes their place once it
+/// is known to be hidden.
+void NodeVisibility::try_as_one(std::uint32_t index, std::size_t first_candidate, const Parts& parts) {
+    if (!parts.seem_hidden() || candidates_.size() <= first_candidate + 1) return;
+    if (!is_testable(nodes_[index].bounds) || !scheduler_.may_try(index, parts.p_hidden)) return;
+    add_node(index, true, Belief::Unknown);
+    candidates_.back().trial = true;
 }
 
 NodeVisibility::Parts NodeVisibility::visit_parts(std::uint32_t index, PlaneMask mask, Belief otherwise) {
@@ -240,7 +251,7 @@ NodeVisibility::Parts NodeVisibility::visit_parts(std::uint32_t index, PlaneMask
     Parts all;
     for (std::uint32_t child = index + 1; child < node.end; child = nodes_[child].end)
         all.add(visit(child, mask, otherwise));
-    merge(index, first_candidate, all);
+    try_as_one(index, first_candidate, all);
     return all;
 }
 

@@ -58,8 +58,7 @@ NodeVisibility::Parts NodeVisibility::add_object(const FrameInput& input, std::u
     candidate.counts_samples |= options_.counts_samples;
     candidates_.push_back(candidate);
     region_of_candidate_.push_back(kNoRegion);
-    const bool hidden = belief == Belief::Hidden && candidate.testable;
-    return {true, hidden, hidden ? scheduler_.p_hidden(item) : 0.0};
+    return part_of(candidate, belief);
 }
 
 NodeVisibility::Parts NodeVisibility::add_region(std::uint32_t index, bool testable, Belief belief) {
@@ -71,8 +70,7 @@ NodeVisibility::Parts NodeVisibility::add_region(std::uint32_t index, bool testa
     candidate.testable = testable;
     candidates_.push_back(candidate);
     region_of_candidate_.push_back(index);
-    const bool hidden = belief == Belief::Hidden && testable;
-    return {true, hidden, hidden ? scheduler_.p_hidden(item) : 0.0};
+    return part_of(candidate, belief);
 }
 
 /// Regions made anew inherit what was believed of their objects.
@@ -117,12 +115,12 @@ NodeVisibility::Parts NodeVisibility::visit_members(const FrameInput& input, std
     else
         for (std::uint32_t child = index + 1; child < node.escape; child = regions_.nodes()[child].escape)
             parts.add(visit_region(input, child, mask, otherwise));
-    const bool all_hidden = parts.any && parts.all_hidden && candidates_.size() > first + 1;
-    if (!all_hidden || !is_testable(node.bounds) || !scheduler_.merge(region_item(index), parts.p_hidden))
-        return parts;
-    candidates_.resize(first);
-    region_of_candidate_.resize(first - leaf_of_candidate_.size());
-    return add_region(index, true, Belief::Hidden);
+    if (parts.seem_hidden() && candidates_.size() > first + 1 && is_testable(node.bounds) &&
+        scheduler_.may_try(region_item(index), parts.p_hidden)) {
+        add_region(index, true, Belief::Unknown);
+        candidates_.back().trial = true;
+    }
+    return parts;
 }
 
 /// Whether the objects of the frame are in regions.
@@ -163,6 +161,7 @@ void NodeVisibility::add_objects(const FrameInput& input) {
 void NodeVisibility::write_objects(const FrameInput& input, FramePlan& plan) {
     hidden_objects_.assign((input.object_boxes.size() + 63) / 64, 0);
     for (std::size_t c = leaf_of_candidate_.size(); c < candidates_.size(); ++c) {
+        if (candidates_[c].trial) continue;
         const OcclusionDecision& decision = decided_.decisions[c];
         const auto write = [&](ObjectId object) {
             const bool hidden =

@@ -312,6 +312,23 @@ TEST_F(Walk, path_file_replaces_the_scenes_own) {
     EXPECT_EQ(walk["summary"]["missing_pixels"]["total"], 0);
 }
 
+/// The path takes a second.
+TEST_F(Walk, at_a_rate_the_frames_are_excerpts_of_the_path_at_its_own_pace) {
+    write_file(folder_ / "way.json", R"({"schema": "rhview.path/1", "keys": [
+                   {"time": 0, "eye": [0, 40, 0], "target": [10, 0, 0]},
+                   {"time": 1, "eye": [200, 40, 0], "target": [210, 0, 0]}]})");
+    const std::string walk =
+        "town:size=96 --warmup 1 --size 160x90 --path way.json --method frustum --set c1=1,c3=1";
+    const nlohmann::json all = walk_json(walk + " --frames 61");
+    const nlohmann::json parts = walk_json(walk + " --frames 6 --rate 60 --excerpts 2");
+    for (const auto& [part, whole] : {std::pair{0, 0}, {1, 1}, {2, 2}, {3, 58}, {4, 59}, {5, 60}})
+        EXPECT_EQ(parts["per_frame"][part]["indices"], all["per_frame"][whole]["indices"]) << part;
+    EXPECT_NE(all["per_frame"][0]["indices"], all["per_frame"][60]["indices"]);
+    EXPECT_EQ(run("walk " + walk + " --frames 61 --rate 60 --excerpts 2").code, 2);
+    EXPECT_EQ(run("walk " + walk + " --frames 6 --excerpts 2").code, 2);
+    EXPECT_EQ(run("walk " + walk + " --frames 2 --rate 60 --excerpts 3").code, 2);
+}
+
 TEST_F(Walk, info_and_scenes_tell_what_there_is) {
     const Outcome scenes = run("scenes");
     EXPECT_EQ(scenes.code, 0);

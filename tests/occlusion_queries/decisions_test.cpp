@@ -261,7 +261,7 @@ TEST(HardNumbers, odd_settings_are_survived) {
         for (int frame = 0; frame < 100; ++frame) {
             view.frame(
                 row(20, 1e5), [](std::uint32_t item) { return item % 2 == 0; }, 1e7, 1e6);
-            if (frame % 7 == 0) view.scheduler.merge(3, kNan);
+            if (frame % 7 == 0) view.scheduler.may_try(3, kNan);
             EXPECT_FALSE(std::isnan(view.decided.query_ns));
             EXPECT_FALSE(std::isnan(view.decided.saved_ns));
             EXPECT_GE(view.scheduler.p_hidden(0), 0.0);

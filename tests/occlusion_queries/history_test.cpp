@@ -150,56 +150,119 @@ TEST(History, members_of_a_failed_multiquery_are_asked_alone_next) {
     }
 }
 
-TEST(Merge, is_refused_for_longer_each_time_that_it_was_seen_through) {
+/// A frame as a planner does it: item 0 stands for its parts 1 to 4, which are always hidden.
+class OneOfParts {
+  public:
+    explicit OneOfParts(const OcclusionSettings& settings) : view(settings, box_pass_costs(10)) {}
+
+    /// Whether it was asked about as one on trial, in a frame in which it answers `seen`.
+    bool frame(bool seen) {
+        view.scheduler.absorb(view.answers);
+        view.scheduler.begin_frame(0);
+        candidates.clear();
+        belief = view.scheduler.visit(0);
+        bool tried = false;
+        if (belief == Belief::Hidden) {
+            candidates = row(1, 4e5);
+        } else {
+            candidates = row(5, 1e5);
+            candidates.erase(candidates.begin());
+            bool hidden = true;
+            for (const OcclusionCandidate& part : candidates)
+                hidden = view.scheduler.visit(part.item) == Belief::Hidden && hidden;
+            tried = hidden && view.scheduler.may_try(0, view.scheduler.p_hidden(1));
+            if (tried) {
+                candidates.push_back(row(1, 4e5).front());
+                candidates.back().trial = true;
+            }
+        }
+        view.scheduler.decide(candidates, view.decided);
+        view.answers.clear();
+        for (const ScheduledQuery& query : view.decided.queries) {
+            const std::uint32_t item = candidates[view.decided.members[query.first_member]].item;
+            view.answers.push_back({query.ticket, item == 0 && seen, 0});
+        }
+        return tried;
+    }
+
+    OneView view;
+    std::vector<OcclusionCandidate> candidates;
+    Belief belief = Belief::Unknown;
+};
+
+TEST(Trial, what_hangs_on_its_parts_stays_there_until_it_is_known_to_be_hidden) {
+    OneOfParts node(kFixedCurve);
+    while (!node.frame(false)) ASSERT_LT(node.candidates.size(), 5u);
+    ASSERT_EQ(node.candidates.size(), 5u);
+    for (std::size_t part = 0; part < 4; ++part)
+        EXPECT_EQ(node.view.action(part), OcclusionAction::QueryFirst) << part;
+    EXPECT_EQ(node.view.action(4), OcclusionAction::DrawAndQuery);
+    const double p_of_parts = node.view.scheduler.p_hidden(1);
+    EXPECT_FALSE(node.frame(false));
+    EXPECT_EQ(node.belief, Belief::Hidden);
+    EXPECT_EQ(node.view.action(0), OcclusionAction::QueryFirst);
+    EXPECT_NEAR(node.view.scheduler.p_hidden(0), p_of_parts, 1e-6);
+}
+
+TEST(Trial, is_refused_for_longer_each_time_that_it_was_seen) {
     OcclusionSettings settings = kFixedCurve;
     settings.merge_interval = 8;
     settings.max_merge_interval = 40;
-    OneView view(settings, box_pass_costs(10));
-    const std::vector<OcclusionCandidate> candidates = row(1, 1e5);
+    OneOfParts node(settings);
     std::vector<int> refused;
     int since = 0;
-    view.frame(candidates, never);
-    view.frame(candidates, never);
     for (int frame = 0; frame < 200; ++frame) {
-        // As a planner does: whenever the parts are hidden, which they always are here.
-        view.scheduler.absorb(view.answers);
-        view.scheduler.begin_frame(0);
-        view.scheduler.visit(0);
-        if (view.scheduler.p_hidden(0) > 0.5) {
-            view.scheduler.decide(candidates, view.decided);
-            view.answers = {{view.decided.queries.at(0).ticket, true, 0}};
-            continue;
-        }
-        view.answers.clear();
-        if (view.scheduler.merge(0, 0.9)) {
-            EXPECT_NEAR(view.scheduler.p_hidden(0), 0.895, 0.02);
-            view.scheduler.decide(candidates, view.decided);
-            ASSERT_EQ(view.action(0), OcclusionAction::QueryFirst);
-            view.answers = {{view.decided.queries.at(0).ticket, true, 0}};
-            refused.push_back(since);
-            since = 0;
-        } else {
-            ++since;
-        }
+        const bool tried = node.frame(true);
+        EXPECT_NE(node.belief, Belief::Hidden);
+        if (tried) refused.push_back(since);
+        since = tried ? 0 : since + 1;
     }
     ASSERT_GE(refused.size(), 5u);
-    EXPECT_EQ(refused[0], 0);
-    for (std::size_t i = 1; i < refused.size(); ++i) {
+    for (std::size_t i = 1; i < refused.size(); ++i)
         EXPECT_NEAR(refused[i], std::min(8 << (i - 1), 40), 1) << i;
-    }
 }
 
-TEST(Merge, what_was_on_its_way_about_the_item_says_nothing_of_the_merged_one) {
+TEST(Trial, is_not_repeated_while_its_answer_is_on_the_way) {
+    OneOfParts node(kFixedCurve);
+    while (!node.frame(false)) ASSERT_LT(node.candidates.size(), 5u);
+    node.view.answers.clear();
+    for (int frame = 0; frame < 10; ++frame) EXPECT_FALSE(node.frame(false));
+}
+
+TEST(Trial, that_is_lost_counts_as_seen) {
+    OcclusionSettings settings = kFixedCurve;
+    settings.lost_after_frames = 4;
+    OneOfParts node(settings);
+    while (!node.frame(false)) ASSERT_LT(node.candidates.size(), 5u);
+    node.view.answers.clear();
+    int frames = 0;
+    while (!node.frame(false)) ASSERT_LT(++frames, 100);
+    EXPECT_NE(node.belief, Belief::Hidden);
+    EXPECT_GE(frames, 2 + static_cast<int>(settings.merge_interval));
+}
+
+TEST(Trial, says_nothing_of_items_of_its_kind) {
+    OneOfParts node({});
+    while (!node.frame(true)) ASSERT_LT(node.candidates.size(), 5u);
+    const double p_of_parts = node.view.scheduler.p_hidden(1);
+    EXPECT_FALSE(node.frame(true));
+    EXPECT_GE(node.view.scheduler.p_hidden(1), p_of_parts);
+}
+
+TEST(Trial, is_told_nothing_by_what_was_asked_before) {
     OneView view(kFixedCurve, box_pass_costs(10));
     const std::vector<OcclusionCandidate> candidates = row(1, 1e5);
-    view.frame(candidates, never);
+    view.frame(candidates, always);
     const std::vector<QueryAnswer> on_the_way = view.answers;
     view.scheduler.begin_frame(0);
     view.scheduler.visit(0);
-    EXPECT_TRUE(view.scheduler.merge(0, 0.95));
+    ASSERT_TRUE(view.scheduler.may_try(0, 0.95));
+    std::vector<OcclusionCandidate> trial = candidates;
+    trial[0].trial = true;
+    view.scheduler.decide(trial, view.decided);
     view.scheduler.absorb(on_the_way);
     view.scheduler.begin_frame(0);
-    EXPECT_EQ(view.scheduler.visit(0), Belief::Hidden);
+    EXPECT_EQ(view.scheduler.visit(0), Belief::Unknown);
 }
 
 TEST(Views, two_of_them_over_the_same_items_know_nothing_of_each_other) {

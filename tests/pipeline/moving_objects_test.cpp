@@ -41,6 +41,22 @@ Aabb volume_of(const MovingObjects& objects, ObjectId object) {
     return input.object_boxes[index_of(object)];
 }
 
+TEST(MovingObjects, one_that_any_view_of_the_frame_draws_stays_awake) {
+    MovingObjects objects;
+    for (std::uint32_t i = 0; i < 3; ++i) objects.add(kUnitBox, 0, 1.0);
+    const FramePlan first = plan_of({0}), second = plan_of({0, 2});
+    const FramePlan* const plans[] = {&first, &second};
+    objects.begin_frame(0.0);
+    objects.end_frame_of_views(plans);
+    EXPECT_FALSE(objects.is_asleep(ObjectId{0}));
+    EXPECT_TRUE(objects.is_asleep(ObjectId{1}));
+    EXPECT_FALSE(objects.is_asleep(ObjectId{2}));
+    objects.begin_frame(0.1);
+    objects.end_frame_of_views({});
+    EXPECT_TRUE(objects.is_asleep(ObjectId{0}));
+    EXPECT_TRUE(objects.is_asleep(ObjectId{2}));
+}
+
 TEST(MovingObjects, numbers_of_removed_objects_are_given_again_the_lowest_first) {
     MovingObjects objects;
     for (std::uint32_t i = 0; i < 5; ++i) EXPECT_EQ(objects.add(kUnitBox, i, 1.0), ObjectId{i});

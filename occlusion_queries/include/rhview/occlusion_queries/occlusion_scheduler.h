@@ -27,7 +27,7 @@ namespace rhview {
 /// What earlier answers say of an item.
 enum class Belief : std::uint8_t { Unknown, Visible, Hidden };
 
-/// An item in the frustum, none of whose ancestors is a candidate.
+/// An item in the frustum, none of whose ancestors is a candidate, trials apart.
 struct OcclusionCandidate {
     std::uint32_t item = 0;
     float render_ns = 0.0f;  ///< what drawing it takes by the model, if it is drawn
@@ -37,6 +37,7 @@ struct OcclusionCandidate {
     std::uint16_t draws = 1;  ///< conditional draws it would take
     bool testable = true;     ///< false: the eye is in its boxes, or they cross the near plane: it is drawn
     bool counts_samples = false;  ///< the answer should say how many: hardware queries only
+    bool trial = false;  ///< nothing is drawn of it: its parts are candidates, and `may_try` allowed this
 };
 
 enum class OcclusionAction : std::uint8_t {
@@ -103,9 +104,11 @@ class OcclusionScheduler {
     [[nodiscard]] double p_hidden(std::uint32_t item) const;
     /// Whether `item` was believed hidden until its last answer: its parts are probably hidden still.
     [[nodiscard]] bool turned_visible(std::uint32_t item) const;
-    /// All parts of `item`, visited this frame, are believed hidden: ask about it as one from now on, with
-    /// confidence `p_hidden`. False: it was tried not long ago and answered visible; the parts stay apart.
-    bool merge(std::uint32_t item, double p_hidden);
+    /// All parts of `item`, visited this frame, are believed hidden with probability `p_hidden` or more: may
+    /// it be asked about as one, beside its parts? Then it is a candidate with `trial`, and once its answer
+    /// is "hidden" it is believed so, as surely as its parts were. False: it was tried not long ago and seen,
+    /// or the answer is on its way.
+    bool may_try(std::uint32_t item, double p_hidden);
 
     /// Decides about all candidates of the frame; at most one call per frame. Deterministic.
     void decide(std::span<const OcclusionCandidate> candidates, OcclusionDecisions& out);

@@ -70,8 +70,8 @@ struct OcclusionSettings {
     /// Members of a multiquery at most. CHC++ collects 20 to 80.
     std::uint32_t max_multiquery = 64;
 
-    /// Frames for which `merge` says no after its item was believed hidden and answered visible: doubled each
-    /// time in a row, up to the greatest. Ours.
+    /// Frames for which an item that was seen is not tried as one again (`may_try`): doubled each time in a
+    /// row, up to the greatest. Ours.
     std::uint32_t merge_interval = 8;
     std::uint32_t max_merge_interval = 512;
 

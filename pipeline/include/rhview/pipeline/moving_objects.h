@@ -55,8 +55,12 @@ class MovingObjects {
     void teleport(ObjectId object, const Aabb& box);
     /// Sets the parts of `input` that are about objects; spans into this until it changes.
     void describe(FrameInput& input) const;
-    /// What `plan` does not draw at once falls asleep; what it does wakes.
-    void end_frame(const FramePlan& plan);
+    /// What none of the frame's plans draws at once falls asleep; what one does wakes.
+    void end_frame_of_views(std::span<const FramePlan* const> plans);
+    void end_frame(const FramePlan& plan) {
+        const FramePlan* const only = &plan;
+        end_frame_of_views({&only, 1});
+    }
 
     /// One more than the largest number in use, now or before.
     [[nodiscard]] std::size_t slot_count() const { return slots_.size(); }
@@ -85,6 +89,7 @@ class MovingObjects {
     }
     void put(ObjectId object, const Aabb& box);
     void wake(std::uint32_t object);
+    void see(const FramePlan& plan);
     void put_to_sleep(std::uint32_t object);
 
     TemporalVolumeSettings settings_;

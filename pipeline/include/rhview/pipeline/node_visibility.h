@@ -41,7 +41,8 @@ struct OcclusionOptions {
 /// A node believed hidden is asked about as a whole, with the boxes of its descendants where these are tight;
 /// one believed visible is descended into, down to its leaves, and to their pieces where these are much
 /// smaller than their leaf (a wall that crosses it makes a leaf's box large). What is new is asked about in
-/// parts that are worth some queries each. A node whose parts are all hidden is asked about as one again.
+/// parts that are worth some queries each. A node whose parts all seem hidden is asked about as one
+/// beside them, and takes their place once it is known to be hidden.
 /// What an inner node holds of batches too small to be divided is drawn with it and never asked about.
 /// Sources: Mattausch, Bittner & Wimmer 2008 (CHC++: tight bounds, pulling visibility up and down).
 class NodeVisibility {
@@ -68,12 +69,16 @@ class NodeVisibility {
   private:
     /// What a subtree in the frustum is made of.
     struct Parts {
-        bool any = false;
-        bool all_hidden = true;
-        double p_hidden = 1.0;  ///< the least
+        bool any_seen = false;    ///< or cannot be asked about
+        double hidden_ns = 0.0;   ///< to draw what is believed hidden
+        double unknown_ns = 0.0;  ///< and what nothing is known of
+        double p_hidden = 1.0;    ///< the least of those believed hidden
 
         void add(const Parts& part);
+        /// Hidden as far as is known, and more is known than not.
+        [[nodiscard]] bool seem_hidden() const { return !any_seen && hidden_ns > unknown_ns; }
     };
+    [[nodiscard]] Parts part_of(const OcclusionCandidate& candidate, Belief belief) const;
     static constexpr std::uint32_t kNoRegion = 0xffffffffu;
 
     /// How boxes look from the eye.
@@ -93,7 +98,7 @@ class NodeVisibility {
     Parts visit(std::uint32_t index, PlaneMask mask, Belief otherwise);
     Parts visit_parts(std::uint32_t index, PlaneMask mask, Belief belief);
     Parts visit_pieces(std::uint32_t index, PlaneMask mask, Belief otherwise);
-    void merge(std::uint32_t index, std::size_t first_candidate, Parts& parts);
+    void try_as_one(std::uint32_t index, std::size_t first_candidate, const Parts& parts);
     Parts add_node(std::uint32_t index, bool testable, Belief belief);
     Parts add_piece(std::uint32_t piece, Belief otherwise);
     void add_objects(const FrameInput& input);

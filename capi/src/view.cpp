@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "view.h"
+
+#include <algorithm>
+
+namespace rhview::capi {
+namespace {
+
+std::uint32_t number_of(ObjectId object) {
+    return static_cast<std::uint32_t>(object);
+}
+
+rhview_draw draw_of(const DrawRange& range) {
+    return {static_cast<std::uint32_t>(range.batch), range.first_index, range.index_count};
+}
+
+rhview_box box_of(const Aabb& box) {
+    return {{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}};
+}
+
+/// `made(element)` of each, in their order.
+template <class From, class To, class Make>
+void convert(const std::vector<From>& from, std::vector<To>& to, Make made) {
+    to.clear();
+    to.reserve(from.size());
+    for (const From& element : from) to.push_back(made(element));
+}
+
+void number(std::span<const ObjectId> objects, std::vector<std::uint32_t>& numbers) {
+    numbers.clear();
+    for (const ObjectId object : objects) numbers.push_back(number_of(object));
+}
+
+}  // namespace
+
+View::View(std::shared_ptr<Scene> scene, const KnownCosts& costs,
+           const std::optional<OcclusionOptions>& occlusion, VisibilityReportSettings report)
+    : scene_(std::move(scene)),
+      planner_(scene_->octree, costs.draw, occlusion),
+      report_(std::move(report)),
+      missed_(scene_->max_objects()) {
+    scene_->views.push_back(this);
+}
+
+View::~View() {
+    std::erase(scene_->views, this);
+}
+
+void View::set_camera(const rhview::View& camera, glm::ivec2 viewport_pixels) {
+    input_.culling_view = camera;
+    input_.viewport_pixels = viewport_pixels;
+    has_camera_ = true;
+}
+
+void View::absorb(std::span<const QueryAnswer> given) {
+    planner_.absorb(given);
+    report_.absorb(given);
+}
+
+ViewToPlan View::prepare() {
+    input_.scene_origin = scene_->origin;
+    scene_->objects.describe(input_);
+    find_new_objects();
+    return {this, &input_, &plan_};
+}
+
+void View::find_new_objects() {
+    new_objects_.assign(input_.new_objects.begin(), input_.new_objects.end());
+    for (std::uint32_t i = 0; i < missed_.size(); ++i)
+        if (missed_[i] != 0) new_objects_.push_back(ObjectId{i});
+    input_.new_objects = new_objects_;
+}
+
+void View::plan(const FrameInput& input, FramePlan& plan) {
+    planner_.plan(input, plan);
+    report_.update(input, plan);
+    export_plan();
+    std::ranges::fill(missed_, std::uint8_t{0});
+    has_plan_ = is_planned_ = true;
+}
+
+const FramePlan* View::end_frame(std::span<const ObjectId> new_objects) {
+    if (std::exchange(is_planned_, false)) return &plan_;
+    for (const ObjectId object : new_objects) missed_[index_of(object)] = 1;
+    return nullptr;
+}
+
+void View::export_plan() {
+    convert(plan_.opaque, draws_, draw_of);
+    objects_.clear();
+    for (std::size_t i = 0; i < plan_.objects.size(); ++i)
+        objects_.push_back({number_of(plan_.objects[i]), plan_.level_of_object(i)});
+    convert(plan_.queries, queries_, [](const PlannedQuery& query) {
+        return rhview_query{query.ticket, query.first_box, query.box_count,
+                            query.way == QueryWay::BoxPass ? std::uint32_t{RHVIEW_BOX_PASS}
+                                                           : std::uint32_t{RHVIEW_HARDWARE_QUERY},
+                            0};
+    });
+    convert(plan_.query_boxes, boxes_, box_of);
+    convert(plan_.conditional, conditional_draws_, [](const ConditionalRange& conditional) {
+        return rhview_conditional_draw{draw_of(conditional.range), conditional.query};
+    });
+    convert(plan_.conditional_objects, conditional_objects_, [](const ConditionalObject& conditional) {
+        return rhview_conditional_object{number_of(conditional.object), conditional.level, conditional.query};
+    });
+    number(report_.became_visible(), became_visible_);
+    number(report_.became_hidden(), became_hidden_);
+}
+
+rhview_plan View::exported_plan() const {
+    rhview_plan plan{};
+    plan.draws = draws_.data();
+    plan.draw_count = draws_.size();
+    plan.objects = objects_.data();
+    plan.object_count = objects_.size();
+    plan.queries = queries_.data();
+    plan.query_count = queries_.size();
+    plan.boxes = boxes_.data();
+    plan.box_count = boxes_.size();
+    plan.conditional_draws = conditional_draws_.data();
+    plan.conditional_draw_count = conditional_draws_.size();
+    plan.conditional_objects = conditional_objects_.data();
+    plan.conditional_object_count = conditional_objects_.size();
+    plan.predicted_ns = plan_.predicted_ns.value_or(0.0);
+    plan.hash = plan_hash(plan_);
+    plan.nodes_visited = plan_.nodes_visited;
+    return plan;
+}
+
+rhview_changes View::exported_changes() const {
+    rhview_changes changes{};
+    changes.became_visible = became_visible_.data();
+    changes.became_visible_count = became_visible_.size();
+    changes.became_hidden = became_hidden_.data();
+    changes.became_hidden_count = became_hidden_.size();
+    return changes;
+}
+
+}  // namespace rhview::capi

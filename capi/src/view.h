@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+/// \file
+/// A view of a scene, with its last plan as C sees it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "costs.h"
+#include "scene.h"
+
+namespace rhview::capi {
+
+/// `plan` is the planner's, then the report and the C arrays of it: whoever plans a view has them too.
+class View final : public FramePlanner {
+  public:
+    View(std::shared_ptr<Scene> scene, const KnownCosts& costs,
+         const std::optional<OcclusionOptions>& occlusion, VisibilityReportSettings report);
+    ~View() override;
+    View(const View&) = delete;
+    View& operator=(const View&) = delete;
+
+    void set_camera(const rhview::View& camera, glm::ivec2 viewport_pixels);
+    [[nodiscard]] bool has_camera() const { return has_camera_; }
+    [[nodiscard]] const Scene& scene() const { return *scene_; }
+
+    void absorb(std::span<const QueryAnswer> answers) override;
+    /// Takes in what changed of the scene. Then the view can be planned.
+    ViewToPlan prepare();
+    void plan(const FrameInput& input, FramePlan& plan) override;
+    [[nodiscard]] Aabb bounds_of(std::uint32_t chosen) const override { return planner_.bounds_of(chosen); }
+    /// What was planned in the frame that ends; null: nothing, and what is new is still to be told.
+    const FramePlan* end_frame(std::span<const ObjectId> new_objects);
+
+    [[nodiscard]] bool has_plan() const { return has_plan_; }
+    [[nodiscard]] rhview_plan exported_plan() const;
+    [[nodiscard]] rhview_changes exported_changes() const;
+    [[nodiscard]] const VisibilityReport& report() const { return report_; }
+
+    std::vector<QueryAnswer> answers;  ///< scratch
+    std::vector<ViewToPlan> to_plan;   ///< scratch of calls whose first view this is
+
+  private:
+    void find_new_objects();
+    void export_plan();
+
+    std::shared_ptr<Scene> scene_;
+    RhviewPlanner planner_;
+    VisibilityReport report_;
+    FrameInput input_;
+    FramePlan plan_;
+    bool has_camera_ = false, has_plan_ = false;
+    bool is_planned_ = false;           ///< in this frame
+    std::vector<std::uint8_t> missed_;  ///< by object: became new in a frame without a plan
+    std::vector<ObjectId> new_objects_;
+
+    std::vector<rhview_draw> draws_;
+    std::vector<rhview_object_draw> objects_;
+    std::vector<rhview_query> queries_;
+    std::vector<rhview_box> boxes_;
+    std::vector<rhview_conditional_draw> conditional_draws_;
+    std::vector<rhview_conditional_object> conditional_objects_;
+    std::vector<std::uint32_t> became_visible_, became_hidden_;
+};
+
+}  // namespace rhview::capi
+
+struct rhview_view {
+    rhview::capi::View state;
+};
