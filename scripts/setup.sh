@@ -25,7 +25,9 @@ packages=(
     # the program and text
     libcli11-dev libfmt-dev
     # the viewer, and a display without a screen that it is tested in
-    libglfw3-dev libimgui-dev xvfb
+    libglfw3-dev libimgui-dev xvfb xauth
+    # the sample that drives OGRE
+    libogre-1.12-dev
     # tests and benchmarks
     libgtest-dev libbenchmark-dev
     # plots, and a browser that report pages are tested in
