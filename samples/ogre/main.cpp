@@ -162,7 +162,8 @@ int run() {
     place_camera(octree, 0);
     render_ms(octree);  // nodes learn where they are
 
-    // An index as the sample calibrate measured it on llvmpipe; a batch is a guess, OGRE's work for it included.
+    // An index as the sample calibrate measured it on llvmpipe; a batch is a guess, OGRE's work for it
+    // included.
     const rhview::DrawCosts costs{.index_ns = 13.0, .draw_ns = 6000.0};
     Way merged{"rhview", root.createSceneManager(), nullptr, nullptr, 0.0, 0.0, {}};
     rhview::Result<std::unique_ptr<MergedScene>> scene = MergedScene::merge(*octree.scene, costs);
