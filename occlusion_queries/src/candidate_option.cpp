@@ -54,7 +54,7 @@ void OptionPricer::price(const OcclusionCandidate& candidate, const ItemHistory&
     if (!candidate.testable || option.render_ns == 0.0f) return;
     if (candidate.trial) {
         option.alone = true;
-        return set_test(option, candidate, option.render_ns);
+        return set_test(option, candidate, option.render_ns * trusted_frames());
     }
     option.alone = candidate.counts_samples || item.ask_alone;
     if (item.belief == Belief::Visible) {
@@ -68,9 +68,8 @@ void OptionPricer::price_occluder(const OcclusionCandidate& candidate, Candidate
     option = {};
     option.render_ns = usable_render_ns(candidate.render_ns);
     option.alone = true;
-    const auto frames = static_cast<float>(std::max(settings_.visible_interval, 1u));
     const float p = p_by_rank_[rank_of_[kUnknown]];
-    set_test(option, candidate, p * gain_while_hidden(candidate, option.render_ns) * frames);
+    set_test(option, candidate, p * gain_while_hidden(candidate, option.render_ns) * trusted_frames());
 }
 
 void OptionPricer::set_doubtful(CandidateOption& option, const OcclusionCandidate& candidate,
@@ -160,6 +159,11 @@ float OptionPricer::gain_while_hidden(const OcclusionCandidate& candidate, float
     const float most = candidate.counts_samples ? 1.0f : most_members_;
     const float share = query_share_ns(hardware_.query_ns, 1.0f - p, render_ns, most);
     return p * render_ns - first_prices(candidate, share).least();
+}
+
+/// An answer is good for so many, at least.
+float OptionPricer::trusted_frames() const {
+    return static_cast<float>(std::max(settings_.visible_interval, 1u));
 }
 
 bool OptionPricer::is_fresh(const ItemHistory& item) const {

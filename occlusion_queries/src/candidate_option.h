@@ -66,6 +66,7 @@ class OptionPricer {
     [[nodiscard]] Prices test_prices(const OcclusionCandidate& candidate, float hardware_query_ns) const;
     [[nodiscard]] Prices first_prices(const OcclusionCandidate& candidate, float hardware_query_ns) const;
     [[nodiscard]] float gain_while_hidden(const OcclusionCandidate& candidate, float render_ns) const;
+    [[nodiscard]] float trusted_frames() const;
     [[nodiscard]] bool is_fresh(const ItemHistory& item) const;
     [[nodiscard]] float waited(const ItemHistory& item) const;
     void rank_beliefs();

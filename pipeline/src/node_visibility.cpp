@@ -64,7 +64,17 @@ void NodeVisibility::Parts::add(const Parts& part) {
     any_seen = any_seen || part.any_seen;
     hidden_ns += part.hidden_ns;
     unknown_ns += part.unknown_ns;
+    asking_ns += part.asking_ns;
     p_hidden = std::min(p_hidden, part.p_hidden);
+}
+
+/// By the cheaper way, with the draws that hang on it.
+double NodeVisibility::asking_ns(const OcclusionCandidate& candidate) const {
+    const auto price = [&](const AnswerCosts& way) {
+        return way.query_ns + candidate.boxes * way.box_ns + candidate.pixels * way.pixel_ns +
+               candidate.draws * way.draw_ns;
+    };
+    return std::min(price(options_.costs.hardware), price(options_.costs.box_pass));
 }
 
 NodeVisibility::Parts NodeVisibility::part_of(const OcclusionCandidate& candidate, Belief belief) const {
@@ -73,6 +83,7 @@ NodeVisibility::Parts NodeVisibility::part_of(const OcclusionCandidate& candidat
         part.any_seen = true;
     } else if (belief == Belief::Hidden) {
         part.hidden_ns = candidate.render_ns;
+        part.asking_ns = asking_ns(candidate);
         part.p_hidden = scheduler_.p_hidden(candidate.item);
     } else {
         part.unknown_ns = candidate.render_ns;
@@ -177,7 +188,7 @@ double NodeVisibility::render_ns(std::uint32_t index) const {
     return index_ns * (indices_before_[node.piece_end] - indices_before_[node.first_piece]);
 }
 
-NodeVisibility::Parts NodeVisibility::add_node(std::uint32_t index, bool testable, Belief belief) {
+OcclusionCandidate NodeVisibility::node_candidate(std::uint32_t index, bool testable) const {
     const OctreeNode& node = nodes_[index];
     OcclusionCandidate candidate = candidate_of(index, node.bounds);
     candidate.render_ns = static_cast<float>(render_ns(index));
@@ -185,9 +196,13 @@ NodeVisibility::Parts NodeVisibility::add_node(std::uint32_t index, bool testabl
     candidate.draws =
         static_cast<std::uint16_t>(std::min({node.range_count, node.piece_end - node.first_piece, 0xffffu}));
     candidate.testable = testable;
-    candidates_.push_back(candidate);
+    return candidate;
+}
+
+NodeVisibility::Parts NodeVisibility::add_node(std::uint32_t index, bool testable, Belief belief) {
+    candidates_.push_back(node_candidate(index, testable));
     leaf_of_candidate_.push_back(NodeId{index});
-    return part_of(candidate, belief);
+    return part_of(candidates_.back(), belief);
 }
 
 /// Recursion is as deep as the octree: 21 levels at most.
@@ -236,13 +251,23 @@ NodeVisibility::Parts NodeVisibility::visit_pieces(std::uint32_t index, PlaneMas
     return all;
 }
 
+/// `whole` could be asked about beside its parts: worth what asking about it instead of them would save in a
+/// frame.
+bool NodeVisibility::make_trial(const Parts& parts, OcclusionCandidate& whole) {
+    whole.trial = true;
+    whole.render_ns = static_cast<float>(parts.asking_ns - asking_ns(whole));
+    return whole.render_ns > 0.0f && scheduler_.may_try(whole.item, parts.p_hidden);
+}
+
 /// If all parts of the node seem hidden, it is asked about as one beside them: it takes their place once it
 /// is known to be hidden.
 void NodeVisibility::try_as_one(std::uint32_t index, std::size_t first_candidate, const Parts& parts) {
     if (!parts.seem_hidden() || candidates_.size() <= first_candidate + 1) return;
-    if (!is_testable(nodes_[index].bounds) || !scheduler_.may_try(index, parts.p_hidden)) return;
-    add_node(index, true, Belief::Unknown);
-    candidates_.back().trial = true;
+    if (!is_testable(nodes_[index].bounds)) return;
+    OcclusionCandidate whole = node_candidate(index, true);
+    if (!make_trial(parts, whole)) return;
+    candidates_.push_back(whole);
+    leaf_of_candidate_.push_back(NodeId{index});
 }
 
 NodeVisibility::Parts NodeVisibility::visit_parts(std::uint32_t index, PlaneMask mask, Belief otherwise) {

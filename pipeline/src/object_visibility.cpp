@@ -61,16 +61,19 @@ NodeVisibility::Parts NodeVisibility::add_object(const FrameInput& input, std::u
     return part_of(candidate, belief);
 }
 
-NodeVisibility::Parts NodeVisibility::add_region(std::uint32_t index, bool testable, Belief belief) {
+OcclusionCandidate NodeVisibility::region_candidate(std::uint32_t index, bool testable) const {
     const HierarchyNode& node = regions_.nodes()[index];
-    const std::uint32_t item = region_item(index);
-    OcclusionCandidate candidate = candidate_of(item, node.bounds);
+    OcclusionCandidate candidate = candidate_of(region_item(index), node.bounds);
     candidate.render_ns = static_cast<float>(mean_object_ns_ * node.count);
     candidate.draws = static_cast<std::uint16_t>(std::min<std::size_t>({node.count, groups_in_use_, 0xffff}));
     candidate.testable = testable;
-    candidates_.push_back(candidate);
+    return candidate;
+}
+
+NodeVisibility::Parts NodeVisibility::add_region(std::uint32_t index, bool testable, Belief belief) {
+    candidates_.push_back(region_candidate(index, testable));
     region_of_candidate_.push_back(index);
-    return part_of(candidate, belief);
+    return part_of(candidates_.back(), belief);
 }
 
 /// Regions made anew inherit what was believed of their objects.
@@ -115,10 +118,11 @@ NodeVisibility::Parts NodeVisibility::visit_members(const FrameInput& input, std
     else
         for (std::uint32_t child = index + 1; child < node.escape; child = regions_.nodes()[child].escape)
             parts.add(visit_region(input, child, mask, otherwise));
-    if (parts.seem_hidden() && candidates_.size() > first + 1 && is_testable(node.bounds) &&
-        scheduler_.may_try(region_item(index), parts.p_hidden)) {
-        add_region(index, true, Belief::Unknown);
-        candidates_.back().trial = true;
+    if (!parts.seem_hidden() || candidates_.size() <= first + 1 || !is_testable(node.bounds)) return parts;
+    OcclusionCandidate whole = region_candidate(index, true);
+    if (make_trial(parts, whole)) {
+        candidates_.push_back(whole);
+        region_of_candidate_.push_back(index);
     }
     return parts;
 }

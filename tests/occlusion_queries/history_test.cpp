@@ -249,6 +249,25 @@ TEST(Trial, says_nothing_of_items_of_its_kind) {
     EXPECT_GE(node.view.scheduler.p_hidden(1), p_of_parts);
 }
 
+TEST(Trial, is_asked_only_where_it_saves_its_price_before_an_answer_is_old) {
+    OcclusionSettings settings = kFixedCurve;
+    settings.visible_interval = 8;
+    for (const auto& [saves_ns, asked] : {std::pair{1100.0f, false}, {1400.0f, true}}) {
+        OneView view(settings, box_pass_costs(10000));
+        std::vector<OcclusionCandidate> trial = row(1, saves_ns);
+        trial[0].trial = true;
+        view.scheduler.begin_frame(0);
+        view.scheduler.visit(0);
+        ASSERT_TRUE(view.scheduler.may_try(0, 0.95));
+        view.scheduler.decide(trial, view.decided);
+        EXPECT_EQ(view.decided.queries.size(), asked ? 1u : 0u) << saves_ns;
+        // What was not asked may be tried again at once.
+        view.scheduler.begin_frame(0);
+        view.scheduler.visit(0);
+        EXPECT_EQ(view.scheduler.may_try(0, 0.95), !asked) << saves_ns;
+    }
+}
+
 TEST(Trial, is_told_nothing_by_what_was_asked_before) {
     OneView view(kFixedCurve, box_pass_costs(10));
     const std::vector<OcclusionCandidate> candidates = row(1, 1e5);

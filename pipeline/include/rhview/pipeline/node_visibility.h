@@ -72,6 +72,7 @@ class NodeVisibility {
         bool any_seen = false;    ///< or cannot be asked about
         double hidden_ns = 0.0;   ///< to draw what is believed hidden
         double unknown_ns = 0.0;  ///< and what nothing is known of
+        double asking_ns = 0.0;   ///< to ask about what is believed hidden
         double p_hidden = 1.0;    ///< the least of those believed hidden
 
         void add(const Parts& part);
@@ -98,6 +99,10 @@ class NodeVisibility {
     Parts visit(std::uint32_t index, PlaneMask mask, Belief otherwise);
     Parts visit_parts(std::uint32_t index, PlaneMask mask, Belief belief);
     Parts visit_pieces(std::uint32_t index, PlaneMask mask, Belief otherwise);
+    [[nodiscard]] double asking_ns(const OcclusionCandidate& candidate) const;
+    [[nodiscard]] OcclusionCandidate node_candidate(std::uint32_t index, bool testable) const;
+    [[nodiscard]] OcclusionCandidate region_candidate(std::uint32_t index, bool testable) const;
+    bool make_trial(const Parts& parts, OcclusionCandidate& whole);
     void try_as_one(std::uint32_t index, std::size_t first_candidate, const Parts& parts);
     Parts add_node(std::uint32_t index, bool testable, Belief belief);
     Parts add_piece(std::uint32_t piece, Belief otherwise);
