@@ -7,94 +7,25 @@
 
 #include <algorithm>
 
-#include "frame_pictures.h"
+#include "frame_comparison.h"
 #include "level_chains.h"
-#include "method.h"
 #include "occlusion_choice.h"
-#include "reveal_delays.h"
-#include "rhview/gl/item_buffer.h"
 #include "rhview/gl/stepped_executor.h"
 #include "rhview/gl/timer.h"
 #include "rhview/gl/work_counter.h"
-#include "rhview/pipeline/moving_objects.h"
-#include "rhview/rhoctree/draw_list.h"
-#include "rhview/scenes/object_motion.h"
 #include "rhview/timing_model/running_update.h"
 #include "statistics.h"
+#include "walk_description.h"
 #include "walk_levels.h"
+#include "walk_objects.h"
 #include "walk_pace.h"
 
 namespace rhview::cli {
 namespace {
 
-constexpr glm::vec3 kSky(0.74f, 0.82f, 0.90f);
-
 Work without_queries(Work work) {
     work.queries = 0.0;
     return work;
-}
-
-std::uint64_t distinct(std::vector<std::uint32_t> numbers) {
-    std::ranges::sort(numbers);
-    return static_cast<std::uint64_t>(std::ranges::unique(numbers).begin() - numbers.begin());
-}
-
-WalkReport describe(const WalkOptions& options, const WalkGround& ground, const PreparedMethod& method) {
-    const Scene& scene = ground.loaded.scene;
-    const gl::DeviceInfo& device = ground.context.device();
-    WalkReport report;
-    report.scene = {scene.name,
-                    scene.static_triangles(),
-                    scene.dynamic_objects.size(),
-                    scene.dynamic_triangles(),
-                    scene.materials.size(),
-                    scene.batches.size(),
-                    scene.static_instances.size(),
-                    scene.instance_triangles(),
-                    distinct(object_groups(scene))};
-    report.device = {device.renderer, device.version, "wall"};
-    report.build.ms = method.build_ms;
-    if (method.octree != nullptr) {
-        report.build.nodes = method.octree->nodes().size();
-        report.build.leaves = method.octree->leaf_count();
-        report.build.replicas = method.octree->replicas().size();
-        report.build.replica_bytes = method.octree->replica_bytes();
-        report.build.hierarchy = "octree";
-    }
-    if (method.rival) {
-        report.build.nodes = method.rival->nodes;
-        report.build.leaves = method.rival->leaves;
-        report.build.hierarchy = method.rival->hierarchy;
-        report.in_steps = true;
-    }
-    report.build.instancing = scene.instancing;
-    report.build.index_bytes = scene.index_bytes();
-    report.build.vertex_bytes = scene.vertex_bytes();
-    report.method = options.method;
-    report.mode = options.mode;
-    report.visible_pixels = options.visible_pixels;
-    report.submission = options.submission;
-    report.occlusion = options.occlusion;
-    report.leaf = method.max_leaf_triangles;
-    report.lod.error_bound_px = options.lod_error_px;
-    report.lod.budget_ms = options.budget_ms;
-    report.lod.build_ms = ground.chains_ms;
-    for (const LodChain& chain : ground.chains) {
-        report.lod.levels += chain.levels.size() - 1;
-        report.lod.index_bytes += chain.indices.span().size_bytes();
-    }
-    if (ground.loaded.baked)
-        report.build.load_ms = ground.loaded.baked->load_ms;
-    else
-        report.build.settle_ms = ground.settle_ms;
-    if (ground.chosen.constants)
-        report.profile = {ground.chosen.constants->profile, ground.chosen.constants->source,
-                          ground.chosen.constants->told};
-    else
-        report.why_no_profile = ground.chosen.why_not;
-    report.width = ground.size.width;
-    report.height = ground.size.height;
-    return report;
 }
 
 }  // namespace
@@ -108,13 +39,9 @@ class WalkSession::Impl {
           constants_(ground.chosen.constants),
           scene_(ground.loaded.scene),
           pace_(ground.loaded.path, options),
-          reference_(make_reference(scene_)),
-          bounds_(scene_.bounds()),
+          objects_(scene_),
           clip_depth_(ground.context.device().clip_control ? ClipDepth::ReversedZeroToOne
-                                                           : ClipDepth::NegativeOneToOne),
-          object_groups_(object_groups(scene_)) {
-        place_objects(scene_, 0.0, placements_);
-    }
+                                                           : ClipDepth::NegativeOneToOne) {}
 
     Status set_up() {
         if (Status status = prepare(); !status) return status;
@@ -157,10 +84,7 @@ class WalkSession::Impl {
     [[nodiscard]] ClipDepth clip_depth() const { return clip_depth_; }
 
     PicturedPlan pictured(const View& culling, double time_s) {
-        place_objects(scene_, time_s, placements_);
-        if (levels_) all_levels_ = levels_->complete(input_for(culling), plan_);
-        plan_everything(culling);
-        return describe_plan(culling);
+        return comparison_->pictured({0, culling, culling, time_s, plan_, answers_});
     }
 
     void picture(PlanPicture& picture, const PicturedPlan& plan, const View& from, const PlanMarks& marks) {
@@ -173,22 +97,13 @@ class WalkSession::Impl {
         FrameRecord record = draw_frame(frame);
         learn(record);
         report_.plan_hash = plan_hash(plan_, report_.plan_hash);
-        if (options_.visible_set) place_all(frame);
-        if (options_.visible_set) record.visible_set_indices = visible_set_indices(frame);
-        const bool checked = options_.check && frame % options_.check_every == 0;
-        const bool pictured = options_.images && frame % options_.images_every == 0;
-        const bool measured = options_.image_error_every > 0 && frame % options_.image_error_every == 0;
-        if (measured) keep_picture();
-        if (checked || pictured)
-            if (Status status = compare_with_everything(frame, checked, pictured, record); !status)
-                return status;
-        if (measured) record.image_error = image_error(frame);
+        if (Status status = compare(frame, record); !status) return status;
         report_.frames.push_back(record);
         return success();
     }
 
     Status finish() {
-        if (delays_) report_.reveal_frames = delays_->frames();
+        report_.reveal_frames = comparison_->reveal_frames();
         report_.blocking_reads = answer_counters().blocking_reads;
         report_.lost_queries = answer_counters().lost;
         const std::string error = gl::take_error();
@@ -200,12 +115,31 @@ class WalkSession::Impl {
   private:
     /// As before the first frame.
     void begin() {
-        make_movers();
+        objects_.begin(options_.method == "rhview");
         levels_.reset();
         if (!ground_.chains.empty() && (options_.lod_error_px > 0.0 || options_.budget_ms))
             levels_.emplace(scene_, ground_.chains, options_, constants_ ? &constants_->profile : nullptr);
         running_.reset();
         if (constants_) running_.emplace(constants_->profile);
+    }
+
+    /// What is asked for of the frame just drawn.
+    Status compare(int number, FrameRecord& record) {
+        const WalkedFrame frame{
+            number, culling_view_of(number), view_of(number), pace_.time_of(number), plan_, answers_};
+        if (options_.visible_set) {
+            comparison_->place_all(frame);
+            record.visible_set_indices = comparison_->visible_set_indices(frame);
+        }
+        const bool checked = options_.check && number % options_.check_every == 0;
+        const bool pictured = options_.images && number % options_.images_every == 0;
+        const bool measured = options_.image_error_every > 0 && number % options_.image_error_every == 0;
+        if (measured) comparison_->keep_picture();
+        if (checked || pictured)
+            if (Status status = comparison_->compare(frame, checked, pictured, record); !status)
+                return status;
+        if (measured) record.image_error = comparison_->image_error(frame);
+        return success();
     }
 
     /// Constants follow the frames; the frame keeps what they foretold.
@@ -294,20 +228,14 @@ class WalkSession::Impl {
         if (timer->gpu_timer_is_whole()) gpu_timer_.emplace();
         work_counter_.emplace();
         report_.device.timer = gpu_timer_ ? "gpu" : "wall";
-        const bool times_delays = options_.mode == "latent" && options_.check && options_.check_every == 1;
-        if (times_delays) delays_.emplace(method_.octree->nodes().size() + scene_.object_count());
-        if (options_.visible_set || times_delays) {
-            Result<gl::ItemBuffer> items = gl::ItemBuffer::create(size.width, size.height);
-            if (!items) return Error{"--size: " + items.error().message};
-            items_.emplace(std::move(items).value());
-            list_leaves();
-        }
-        if (options_.images) {
-            Result<ViewFromAbove> above = ViewFromAbove::create(size.width, size.height);
-            if (!above) return above.error();
-            above_.emplace(std::move(above).value());
-        }
+        Result<FrameComparison> comparison = FrameComparison::create(stage());
+        if (!comparison) return comparison.error();
+        comparison_.emplace(std::move(comparison).value());
         return success();
+    }
+
+    [[nodiscard]] WalkStage stage() {
+        return {options_, ground_, method_, target_, *executor_, *buffers_, objects_, levels_, clip_depth_};
     }
 
     [[nodiscard]] View culling_view_of(int frame) const {
@@ -326,8 +254,8 @@ class WalkSession::Impl {
     /// The same of a method that draws and asks in turns. What only the device counts is not counted:
     /// OpenGL knows one occlusion query at a time.
     FrameRecord draw_in_steps(int frame, const FrameCameras& cameras, gl::DrawOptions draw) {
-        place_objects(scene_, cameras.time_s, placements_);
-        const FrameInput input = input_for(cameras.culling);
+        objects_.place_all(cameras.time_s);
+        const FrameInput input = objects_.input(cameras.culling, viewport());
         FrameRecord record;
         record.frame = frame;
         const std::uint64_t waits = stepped_->answer_counters().blocking_reads;
@@ -362,68 +290,28 @@ class WalkSession::Impl {
         return record;
     }
 
-    [[nodiscard]] FrameInput input_for(const View& view) const {
-        FrameInput input;
-        input.culling_view = view;
-        input.scene_origin = scene_.origin;
-        input.object_boxes = placements_.boxes;
-        input.object_groups = object_groups_;
-        input.viewport_pixels = {target_->width(), target_->height()};
-        return input;
-    }
-
-    /// Where `rhview` plans, what it does not draw sleeps, and is not touched; the others want to know all.
-    void make_movers() {
-        place_objects(scene_, 0.0, placements_);
-        movers_.reset();
-        if (scene_.dynamic_objects.empty() || options_.method != "rhview") return;
-        movers_.emplace();
-        for (std::uint32_t i = 0; i < scene_.object_count(); ++i)
-            movers_->add(placements_.boxes[i], object_groups_[i], top_speed(scene_, ObjectId{i}));
-    }
-
-    void move_objects(double time_s) {
-        if (!movers_) return place_objects(scene_, time_s, placements_);
-        movers_->begin_frame(time_s);
-        for (const ObjectId object : movers_->due()) {
-            const Aabb& bounds = scene_.meshes[index_of(scene_.object_mesh(object))].bounds;
-            const bool stands = index_of(object) >= scene_.dynamic_objects.size();
-            movers_->move(object, stands ? placements_.boxes[index_of(object)]
-                                         : transform_box(placement_at(scene_, object, time_s), bounds));
-        }
-    }
-
-    /// Only what the plan names is drawn.
-    void place_planned(double time_s) {
-        const auto place = [&](ObjectId object) {
-            placements_.scene_from_mesh[index_of(object)] = placement_at(scene_, object, time_s);
-        };
-        std::ranges::for_each(plan_.objects, place);
-        for (const ConditionalObject& object : plan_.conditional_objects) place(object.object);
-        movers_->end_frame(plan_);
-    }
+    [[nodiscard]] glm::ivec2 viewport() const { return {target_->width(), target_->height()}; }
 
     /// One drawing of the frame; the first of several counts, all of them are timed.
     FrameRecord draw_once(int frame, const FrameCameras& cameras) {
         gl::DrawOptions draw;
-        draw.placements = placements_.scene_from_mesh;
+        draw.placements = objects_.scene_from_mesh();
         draw.submission = options_.submission == "multi" ? gl::Submission::MultiDraw : gl::Submission::Plain;
         draw.counter = &*work_counter_;
-        target_->begin(clip_depth_, kSky);
+        stage().clear();
         gl::finish();
         if (stepped_) return draw_in_steps(frame, cameras, draw);
         FrameRecord record;
         record.frame = frame;
         const gl::WallTimer timer;
-        move_objects(cameras.time_s);
-        FrameInput input = input_for(cameras.culling);
-        if (movers_) movers_->describe(input);
+        objects_.move(cameras.time_s);
+        const FrameInput input = objects_.planner_input(cameras.culling, viewport());
         const double moved_ms = timer.elapsed_ms();
         method_.planner->absorb(answers_);
         method_.planner->plan(input, plan_);
         if (levels_) choose_levels(input, record);
         record.cull_ms = timer.elapsed_ms() - moved_ms;
-        if (movers_) place_planned(cameras.time_s);
+        objects_.place_planned(plan_, cameras.time_s);
         if (gpu_timer_) gpu_timer_->begin();
         work_counter_->begin();
         const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, cameras.render, draw);
@@ -459,7 +347,7 @@ class WalkSession::Impl {
     /// What hung on queries enters the work as far as the device drew it.
     void count_occlusion(const gl::FrameCounters& counters, FrameRecord& record) const {
         const gl::ExecutedDraws executed =
-            gl::count_executed(plan_, *buffers_, answers_, placements_.scene_from_mesh);
+            gl::count_executed(plan_, *buffers_, answers_, objects_.scene_from_mesh());
         OcclusionRecord& o = record.occlusion.emplace();
         o.candidates = plan_.occlusion->candidates;
         o.boxes = counters.query_boxes;
@@ -503,116 +391,6 @@ class WalkSession::Impl {
         return record;
     }
 
-    /// The octree's leaves as items, in their batches' order.
-    void list_leaves() {
-        for (std::uint32_t i = 0; i < method_.octree->nodes().size(); ++i)
-            if (method_.octree->is_leaf(NodeId{i}))
-                for (const DrawRange& range : method_.octree->ranges(NodeId{i}))
-                    leaves_.push_back({range, i});
-        std::ranges::stable_sort(leaves_, {}, [](const gl::ItemRange& leaf) { return leaf.range.batch; });
-    }
-
-    /// For comparisons: every object, drawn or not, where it is and as it would be drawn.
-    void place_all(int frame) {
-        place_objects(scene_, pace_.time_of(frame), placements_);
-        if (levels_) all_levels_ = levels_->complete(input_for(culling_view_of(frame)), plan_);
-    }
-
-    [[nodiscard]] std::uint64_t visible_set_indices(int frame) {
-        std::uint64_t indices = 0;
-        for (const std::uint32_t leaf : items_->visible_items(leaves_, *buffers_, view_of(frame),
-                                                              placements_.scene_from_mesh, all_levels_))
-            indices += 3 * std::uint64_t{method_.octree->node(NodeId{leaf}).triangle_count};
-        return indices;
-    }
-
-    /// At the levels of the last comparison.
-    void plan_everything(const View& view) {
-        reference_->plan(input_for(view), everything_);
-        if (levels_)
-            for (const ObjectId object : everything_.objects)
-                everything_.object_levels.push_back(all_levels_[index_of(object)]);
-    }
-
-    /// Valid until the next frame; all objects are placed.
-    PicturedPlan describe_plan(const View& culling) {
-        to_show_.clear();
-        if (options_.method == "rhview")
-            append_ranges_to_show(*method_.octree, make_frustum(culling, scene_.origin),
-                                  make_viewpoint(culling, scene_.origin), to_show_);
-        return {everything_,
-                plan_,
-                answers_,
-                to_show_,
-                [this](std::uint32_t chosen) { return method_.bounds_of(chosen); },
-                *buffers_,
-                bounds_,
-                culling,
-                placements_.scene_from_mesh};
-    }
-
-    /// The frame just drawn against drawing everything; the oracle of `--check` and of the pictures.
-    Status compare_with_everything(int frame, bool checked, bool pictured, FrameRecord& record) {
-        const View view = view_of(frame);
-        place_all(frame);
-        target_->read_depth(culled_depths_);
-        std::optional<gl::Picture> culled;
-        if (pictured) culled.emplace(target_->read_colour());
-        plan_everything(view);
-        gl::DrawOptions draw;
-        draw.placements = placements_.scene_from_mesh;
-        target_->begin(clip_depth_, kSky);
-        executor_->draw(everything_, *buffers_, view, draw);
-        target_->read_depth(reference_depths_);
-        const std::size_t missing = gl::count_missing_pixels(culled_depths_, reference_depths_);
-        if (checked) record.missing_pixels = missing;
-        if (checked && delays_)
-            record.late_items = delays_->add_frame(
-                items_->item_pixels(leaves_, static_cast<std::uint32_t>(method_.octree->nodes().size()),
-                                    *buffers_, view, placements_.scene_from_mesh, all_levels_),
-                culled_depths_, reference_depths_);
-        if (!pictured) return success();
-
-        gl::Picture reference = target_->read_colour();
-        gl::Picture difference = gl::difference_picture(reference, culled_depths_, reference_depths_);
-        gl::Picture above = above_->draw(describe_plan(culling_view_of(frame)), *executor_);
-        culled->label(fmt::format("{}, frame {}: {} draw calls, {:.2f} M indices", options_.method, frame,
-                                  record.work.draw_calls, record.work.indices * 1e-6));
-        reference.label("everything drawn");
-        difference.label(fmt::format("missing pixels (red): {}", missing));
-        above.label(!plan_.queries.empty()
-                        ? "from above: a colour per call, gaps violet; asked about: blue hidden, green seen"
-                    : options_.method == "rhview"
-                        ? "from above: a colour per call (replicas blue, green), gaps violet, rest grey"
-                        : "from above: a colour per call, rest grey, nodes blue, frustum red");
-        return gl::sheet(*culled, reference, difference, above)
-            .save_png(*options_.images / fmt::format("frame_{:04}.png", frame));
-    }
-
-    /// Before anything else is drawn into the target.
-    void keep_picture() {
-        kept_.emplace(target_->read_colour());
-        target_->read_depth(kept_depths_);
-    }
-
-    /// Of the picture kept, against everything at full detail.
-    [[nodiscard]] gl::ImageDifference image_error(int frame) {
-        ReferenceFrame& reference = *ground_.reference;
-        const View view = view_of(frame);
-        if (reference.frame != frame) {
-            place_objects(scene_, pace_.time_of(frame), placements_);
-            reference_->plan(input_for(view), everything_);
-            gl::DrawOptions draw;
-            draw.placements = placements_.scene_from_mesh;
-            target_->begin(clip_depth_, kSky);
-            executor_->draw(everything_, *buffers_, view, draw);
-            reference.colour.emplace(target_->read_colour());
-            target_->read_depth(reference.depths);
-            reference.frame = frame;
-        }
-        return gl::image_difference(*kept_, kept_depths_, *reference.colour, reference.depths, view);
-    }
-
     const WalkOptions& options_;
     const WalkGround& ground_;
     const std::optional<UserConstants>& constants_;
@@ -622,14 +400,9 @@ class WalkSession::Impl {
     std::vector<std::uint32_t> object_indices_;  ///< what the planner refers to
     WalkReport report_;
     std::optional<RunningUpdate> running_;
-    std::unique_ptr<FramePlanner> reference_;
-    Aabb bounds_;
+    WalkObjects objects_;
     ClipDepth clip_depth_;
-    std::vector<std::uint32_t> object_groups_;
-    ObjectPlacements placements_;  ///< of the frame; with `movers_`, of what was last drawn or compared
-    std::optional<MovingObjects> movers_;
     std::optional<WalkLevels> levels_;
-    std::span<const std::uint8_t> all_levels_;  ///< of the last comparison
     std::optional<gl::RenderTarget> target_;
     std::optional<gl::Executor> executor_;
     std::optional<gl::SteppedExecutor> stepped_;  ///< of a method that draws and asks in turns
@@ -637,19 +410,10 @@ class WalkSession::Impl {
     std::optional<gl::SceneBuffers> buffers_;
     std::optional<gl::GpuTimer> gpu_timer_;
     std::optional<gl::WorkCounter> work_counter_;
-    std::optional<ViewFromAbove> above_;
-    std::optional<gl::ItemBuffer> items_;
-    std::vector<gl::ItemRange> leaves_;
-    std::optional<RevealDelays> delays_;
+    std::optional<FrameComparison> comparison_;
     FramePlan plan_;
     std::vector<QueryAnswer> answers_;  ///< to the queries of the frame before
-    FramePlan everything_;
-    std::vector<DrawRange> to_show_;
     std::string why_no_occlusion_;
-    std::vector<float> culled_depths_;
-    std::vector<float> reference_depths_;
-    std::optional<gl::Picture> kept_;  ///< the culled frame, where its error is measured
-    std::vector<float> kept_depths_;
 };
 
 WalkSession::WalkSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

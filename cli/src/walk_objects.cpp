@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#include "walk_objects.h"
+
+#include <algorithm>
+
+namespace rhview::cli {
+
+WalkObjects::WalkObjects(const Scene& scene) : scene_(scene), groups_(object_groups(scene)) {
+    place_all(0.0);
+}
+
+void WalkObjects::begin(bool sleeping) {
+    place_all(0.0);
+    movers_.reset();
+    if (scene_.dynamic_objects.empty() || !sleeping) return;
+    movers_.emplace();
+    for (std::uint32_t i = 0; i < scene_.object_count(); ++i)
+        movers_->add(placements_.boxes[i], groups_[i], top_speed(scene_, ObjectId{i}));
+}
+
+void WalkObjects::move(double time_s) {
+    if (!movers_) return place_all(time_s);
+    movers_->begin_frame(time_s);
+    for (const ObjectId object : movers_->due()) {
+        const Aabb& bounds = scene_.meshes[index_of(scene_.object_mesh(object))].bounds;
+        const bool stands = index_of(object) >= scene_.dynamic_objects.size();
+        movers_->move(object, stands ? placements_.boxes[index_of(object)]
+                                     : transform_box(placement_at(scene_, object, time_s), bounds));
+    }
+}
+
+FrameInput WalkObjects::input(const View& view, glm::ivec2 viewport) const {
+    FrameInput input;
+    input.culling_view = view;
+    input.scene_origin = scene_.origin;
+    input.object_boxes = placements_.boxes;
+    input.object_groups = groups_;
+    input.viewport_pixels = viewport;
+    return input;
+}
+
+FrameInput WalkObjects::planner_input(const View& view, glm::ivec2 viewport) const {
+    FrameInput planned = input(view, viewport);
+    if (movers_) movers_->describe(planned);
+    return planned;
+}
+
+void WalkObjects::place_planned(const FramePlan& plan, double time_s) {
+    if (!movers_) return;
+    const auto place = [&](ObjectId object) {
+        placements_.scene_from_mesh[index_of(object)] = placement_at(scene_, object, time_s);
+    };
+    std::ranges::for_each(plan.objects, place);
+    for (const ConditionalObject& object : plan.conditional_objects) place(object.object);
+    movers_->end_frame(plan);
+}
+
+}  // namespace rhview::cli

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The rhview authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rhview/pipeline/moving_objects.h"
+#include "rhview/scenes/object_motion.h"
+
+namespace rhview::cli {
+
+/// Where the objects of a walk are.
+class WalkObjects {
+  public:
+    /// `scene` outlives it.
+    explicit WalkObjects(const Scene& scene);
+
+    /// As before the first frame. `sleeping`: what is not drawn sleeps and is not touched, and each frame is
+    /// a `move`, a plan of `planner_input` and a `place_planned`; else all objects are where they are.
+    void begin(bool sleeping);
+    void move(double time_s);
+    [[nodiscard]] FrameInput planner_input(const View& view, glm::ivec2 viewport) const;
+    /// Only what the plan names is drawn.
+    void place_planned(const FramePlan& plan, double time_s);
+
+    /// Every object, drawn or not: for comparisons, and for methods that find as they draw.
+    void place_all(double time_s) { place_objects(scene_, time_s, placements_); }
+    /// With all objects where they were placed last.
+    [[nodiscard]] FrameInput input(const View& view, glm::ivec2 viewport) const;
+    [[nodiscard]] std::span<const glm::dmat4> scene_from_mesh() const { return placements_.scene_from_mesh; }
+
+  private:
+    const Scene& scene_;
+    std::vector<std::uint32_t> groups_;
+    ObjectPlacements placements_;  ///< of the frame; with `movers_`, of what was last drawn or compared
+    std::optional<MovingObjects> movers_;
+};
+
+}  // namespace rhview::cli
