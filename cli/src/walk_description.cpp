@@ -70,6 +70,8 @@ WalkReport describe(const WalkOptions& options, const WalkGround& ground, const 
                           ground.chosen.constants->told};
     else
         report.why_no_profile = ground.chosen.why_not;
+    report.rate_hz = options.rate_hz;
+    report.excerpts = options.excerpts;
     report.width = ground.size.width;
     report.height = ground.size.height;
     return report;

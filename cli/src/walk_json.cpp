@@ -274,6 +274,8 @@ std::string to_json(const WalkReport& report) {
     json["occlusion"] = report.occlusion;
     json["leaf"] = or_null(report.leaf);
     json["frames"] = report.frames.size();
+    json["rate_hz"] = or_null(report.rate_hz);
+    json["excerpts"] = report.excerpts;
     json["size"] = {report.width, report.height};
     const bool has_tree = !report.build.hierarchy.empty();
     json["build"] = {{"ms", or_null(report.build.ms)},

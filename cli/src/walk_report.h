@@ -131,6 +131,8 @@ struct WalkReport {
     std::uint32_t visible_pixels = 0;  ///< below which latent mode leaves out what it saw
     std::string submission;
     std::optional<std::uint32_t> leaf;
+    std::optional<double> rate_hz;  ///< absent: the frames are spread over all of the path
+    int excerpts = 1;
     int width = 0;
     int height = 0;
     std::vector<FrameRecord> frames;

@@ -122,8 +122,8 @@ rhview::Result<std::unique_ptr<MergedScene>> MergedScene::merge(Ogre::SceneManag
         index_count += batches[b].indices.size();
     }
     rhview::OctreeOptions options = rhview::choose_octree_options(costs, index_count, triangles.size());
-    // Triangles as OGRE's meshes order them: on llvmpipe, which reuses vertices of neighbours only, ordered
-    // by normal they are fewer and take longer all the same (README.md). Measure it where you draw.
+    // Triangles as OGRE's meshes order them: on llvmpipe, ordered by normal they are fewer and take longer
+    // all the same (README.md). Measure it where you draw.
     options.normal_order = false;
     rhview::Result<rhview::RhOctree> octree = rhview::build_octree(triangles, options);
     if (!octree) return octree.error();

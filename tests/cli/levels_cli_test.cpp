@@ -4,7 +4,6 @@
 // Levels of detail through the program: the same picture as drawing everything at the same levels, for every
 // method, and what the results say of them.
 
-#include <cctype>
 
 #include "program.h"
 
@@ -37,14 +36,7 @@ TEST_P(EveryMethodAtLevels, misses_no_pixel_and_draws_less) {
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodAtLevels,
                          testing::Values("none", "frustum", "grid", "octree", "rhview-seed", "rhview",
                                          "rhview --occlusion off", "nested-grid", "chc", "chc++"),
-                         [](const auto& test) {
-                             std::string name = test.param;
-                             std::ranges::replace_if(
-                                 name,
-                                 [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
-                                 '_');
-                             return name;
-                         });
+                         [](const auto& test) { return test_name(test.param); });
 
 class Levels : public ProgramTest {};
 

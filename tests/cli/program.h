@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -26,6 +27,13 @@ inline std::string read_file(const std::filesystem::path& file) {
 
 inline void write_file(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
+}
+
+/// What GoogleTest takes for the name of a parameter: `text` with _ for all but letters and digits.
+inline std::string test_name(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+    return text;
 }
 
 /// Runs the program in a folder of its own, which is gone afterwards.

@@ -34,13 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RealScenes,
                                          RealScene{"stk_candela_city.glb", 429312},
                                          RealScene{"bsp_nexuiz_ons-reborn.glb", 125091},
                                          RealScene{"rvm_huldra_wd1_psup.glb", 85240}),
-                         [](const auto& test) {
-                             std::string name = test.param.file;
-                             std::ranges::replace_if(
-                                 name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
-                                 '_');
-                             return name;
-                         });
+                         [](const auto& test) { return test_name(test.param.file); });
 
 }  // namespace
 }  // namespace rhview::cli

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 
-#include <cctype>
 
 #include "program.h"
 
@@ -31,14 +30,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
                                          "chc", "chc --hierarchy octree --leaf 100", "chc++",
                                          "chc++ --hierarchy octree --leaf 100 --tune "
                                          "batch=5,visible-frames=2,visible-query=box,tight-depth=1"),
-                         [](const auto& test) {
-                             std::string name = test.param;
-                             std::ranges::replace_if(
-                                 name,
-                                 [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
-                                 '_');
-                             return name;
-                         });
+                         [](const auto& test) { return test_name(test.param); });
 
 class Walk : public ProgramTest {};
 
@@ -324,6 +316,9 @@ TEST_F(Walk, at_a_rate_the_frames_are_excerpts_of_the_path_at_its_own_pace) {
     for (const auto& [part, whole] : {std::pair{0, 0}, {1, 1}, {2, 2}, {3, 58}, {4, 59}, {5, 60}})
         EXPECT_EQ(parts["per_frame"][part]["indices"], all["per_frame"][whole]["indices"]) << part;
     EXPECT_NE(all["per_frame"][0]["indices"], all["per_frame"][60]["indices"]);
+    EXPECT_TRUE(all["rate_hz"].is_null());
+    EXPECT_EQ(parts["rate_hz"], 60.0);
+    EXPECT_EQ(parts["excerpts"], 2);
     EXPECT_EQ(run("walk " + walk + " --frames 61 --rate 60 --excerpts 2").code, 2);
     EXPECT_EQ(run("walk " + walk + " --frames 6 --excerpts 2").code, 2);
     EXPECT_EQ(run("walk " + walk + " --frames 2 --rate 60 --excerpts 3").code, 2);
