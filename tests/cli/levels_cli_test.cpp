@@ -4,7 +4,6 @@
 // Levels of detail through the program: the same picture as drawing everything at the same levels, for every
 // method, and what the results say of them.
 
-
 #include "program.h"
 
 namespace rhview::cli {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 
-
 #include "program.h"
 
 namespace rhview::cli {
