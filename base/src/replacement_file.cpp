@@ -27,20 +27,25 @@ void take_permissions(const std::filesystem::path& from, const std::filesystem::
 
 }  // namespace
 
-ReplacementFile::ReplacementFile(std::filesystem::path file, std::filesystem::path temporary,
-                                 std::FILE* stream)
-    : file_(std::move(file)), temporary_(std::move(temporary)), stream_(stream) {}
+ReplacementFile::ReplacementFile(std::filesystem::path file, std::filesystem::path temporary)
+    : file_(std::move(file)), temporary_(std::move(temporary)) {}
+
+bool ReplacementFile::open() {
+    const std::string name = temporary_.string();
+    stream_.reset(std::fopen(name.c_str(), "wbx"));
+    is_there_ = stream_ != nullptr;
+    return is_there_;
+}
 
 ReplacementFile::ReplacementFile(ReplacementFile&& other) noexcept
     : file_(std::move(other.file_)),
       temporary_(std::move(other.temporary_)),
       stream_(std::move(other.stream_)),
-      failed_(other.failed_) {
-    other.temporary_.clear();
-}
+      is_there_(std::exchange(other.is_there_, false)),
+      failed_(other.failed_) {}
 
 ReplacementFile::~ReplacementFile() {
-    if (temporary_.empty()) return;
+    if (!is_there_) return;
     stream_.reset();
     std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
@@ -63,11 +68,13 @@ Result<ReplacementFile> ReplacementFile::create(const std::filesystem::path& fil
     for (int i = 0; i < kNames; ++i) {
         std::filesystem::path temporary = target;
         temporary += i == 0 ? std::string(".part") : "." + std::to_string(i) + ".part";
-        if (std::FILE* const stream = std::fopen(temporary.string().c_str(), "wbx")) {
-            take_permissions(target, temporary);
-            return ReplacementFile(target, std::move(temporary), stream);
+        // Whose it is stands before it is there: it is removed again also where memory runs out here.
+        ReplacementFile replacement(target, std::move(temporary));
+        if (replacement.open()) {
+            take_permissions(target, replacement.temporary_);
+            return replacement;
         }
-        if (!std::filesystem::exists(std::filesystem::symlink_status(temporary, error))) break;
+        if (!std::filesystem::exists(std::filesystem::symlink_status(replacement.temporary_, error))) break;
     }
     return unwritable(file);
 }
@@ -90,7 +97,7 @@ Status ReplacementFile::commit() {
     std::error_code error;
     std::filesystem::rename(temporary_, file_, error);
     if (error) return unwritable(file_);
-    temporary_.clear();
+    is_there_ = false;
     flush_folder(file_.parent_path());
     return success();
 }

@@ -49,11 +49,13 @@ class ReplacementFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
 
-    ReplacementFile(std::filesystem::path file, std::filesystem::path temporary, std::FILE* stream);
+    ReplacementFile(std::filesystem::path file, std::filesystem::path temporary);
+    bool open();
 
     std::filesystem::path file_;
-    std::filesystem::path temporary_;  ///< empty once it is gone
+    std::filesystem::path temporary_;
     std::unique_ptr<std::FILE, Close> stream_;
+    bool is_there_ = false;  ///< the temporary file, and it is ours
     bool failed_ = false;
 };
 
