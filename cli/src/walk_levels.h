@@ -16,7 +16,7 @@ namespace rhview::cli {
 /// The levels of detail of one walk's objects.
 class WalkLevels {
   public:
-    /// `scene` and `chains` outlive it. `profile`: needed for a budget.
+    /// `chains` outlive it. `profile`: needed for a budget.
     WalkLevels(const Scene& scene, std::span<const LodChain> chains, const WalkOptions& options,
                const TimingProfile* profile);
 
@@ -38,7 +38,7 @@ class WalkLevels {
     std::span<const std::uint8_t> complete(const FrameInput& input, const FramePlan& plan);
 
   private:
-    const Scene& scene_;
+    std::vector<std::uint32_t> whole_indices_;  ///< at full detail, by `ObjectId`
     LevelOptions options_;
     ObjectLevels levels_;
     std::optional<WalkBudget> budget_;

@@ -7,7 +7,7 @@
 
 namespace rhview::cli {
 
-WalkObjects::WalkObjects(const Scene& scene) : scene_(scene), groups_(object_groups(scene)) {
+WalkObjects::WalkObjects(const Scene& scene) : scene_(scene), groups_(object_groups(scene)), ways_(scene) {
     place_all(0.0);
 }
 
@@ -27,7 +27,7 @@ void WalkObjects::move(double time_s) {
         const Aabb& bounds = scene_.meshes[index_of(scene_.object_mesh(object))].bounds;
         const bool stands = index_of(object) >= scene_.dynamic_objects.size();
         movers_->move(object, stands ? placements_.boxes[index_of(object)]
-                                     : transform_box(placement_at(scene_, object, time_s), bounds));
+                                     : transform_box(ways_.placement_at(object, time_s), bounds));
     }
 }
 
@@ -50,7 +50,7 @@ FrameInput WalkObjects::planner_input(const View& view, glm::ivec2 viewport) con
 void WalkObjects::place_planned(const FramePlan& plan, double time_s) {
     if (!movers_) return;
     const auto place = [&](ObjectId object) {
-        placements_.scene_from_mesh[index_of(object)] = placement_at(scene_, object, time_s);
+        placements_.scene_from_mesh[index_of(object)] = ways_.placement_at(object, time_s);
     };
     std::ranges::for_each(plan.objects, place);
     for (const ConditionalObject& object : plan.conditional_objects) place(object.object);

@@ -34,6 +34,7 @@ class WalkObjects {
   private:
     const Scene& scene_;
     std::vector<std::uint32_t> groups_;
+    ObjectWays ways_;
     ObjectPlacements placements_;  ///< of the frame; with `movers_`, of what was last drawn or compared
     std::optional<MovingObjects> movers_;
 };

@@ -24,14 +24,23 @@ struct Pose {
     double turns = 0.0;
 };
 
-Pose pose_at(const ObjectMotion& motion, double time_s) {
-    const double period = motion.keys.back().time_s;
-    double time = std::fmod(time_s, period);
-    if (time < 0.0) time += period;
+double time_within(double period_s, double time_s) {
+    const double time = std::fmod(time_s, period_s);
+    return time < 0.0 ? time + period_s : time;
+}
+
+/// The first key after a time of the way; null at its very end.
+const MotionKey* key_after(const ObjectMotion& motion, double time) {
     const auto next =
         std::upper_bound(motion.keys.begin(), motion.keys.end(), time,
                          [](double wanted, const MotionKey& key) { return wanted < key.time_s; });
-    if (next == motion.keys.end()) return {};
+    return next == motion.keys.end() ? nullptr : &*next;
+}
+
+Pose pose_at(const ObjectMotion& motion, double time_s) {
+    const double time = time_within(motion.keys.back().time_s, time_s);
+    const MotionKey* next = key_after(motion, time);
+    if (next == nullptr) return {};
     const MotionKey& a = *(next - 1);
     const MotionKey& b = *next;
     const double t = (time - a.time_s) / (b.time_s - a.time_s);
@@ -89,6 +98,41 @@ double top_speed(const Scene& scene, ObjectId object) {
         speed = std::max(speed, way / (keys[i].time_s - keys[i - 1].time_s));
     }
     return speed * kRoundingUp;
+}
+
+ObjectWays::ObjectWays(const Scene& scene) : scene_(scene) {
+    parts_.resize(scene.dynamic_objects.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const DynamicObject& object = scene.dynamic_objects[i];
+        parts_[i].start = object.scene_from_mesh;
+        parts_[i].motion = object.motion;
+        if (object.motion != DynamicObject::kStill)
+            parts_[i].period_s = scene.motions[object.motion].keys.back().time_s;
+    }
+}
+
+/// At the very end of its way an object is where it starts.
+void ObjectWays::find_part(Part& part, double time) const {
+    const MotionKey* next = key_after(scene_.motions[part.motion], time);
+    const MotionKey& b = next == nullptr ? scene_.motions[part.motion].keys.front() : *next;
+    const MotionKey& a = next == nullptr ? b : *(next - 1);
+    part.from_s = next == nullptr ? time : a.time_s;
+    part.to_s = b.time_s;
+    part.length_s = next == nullptr ? 1.0 : b.time_s - a.time_s;
+    part.offset = a.offset;
+    part.step = b.offset - a.offset;
+    part.turns = a.turns;
+    part.turns_step = b.turns - a.turns;
+}
+
+glm::dmat4 ObjectWays::placement_at(ObjectId object, double time_s) {
+    if (index_of(object) >= parts_.size()) return scene_.object_placement(object);
+    Part& part = parts_[index_of(object)];
+    if (part.motion == DynamicObject::kStill) return part.start;
+    const double time = time_within(part.period_s, time_s);
+    if (!(time >= part.from_s && time < part.to_s)) find_part(part, time);
+    const double t = (time - part.from_s) / part.length_s;
+    return moved(part.start, {part.offset + t * part.step, part.turns + t * part.turns_step});
 }
 
 void place_objects(const Scene& scene, double time_s, ObjectPlacements& placements) {

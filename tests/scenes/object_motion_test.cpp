@@ -65,6 +65,25 @@ TEST(ObjectMotion, ways_pass_their_keys_and_repeat) {
         }
 }
 
+TEST(ObjectMotion, ways_that_remember_where_they_are_place_to_the_last_bit) {
+    Uniform random(8);
+    std::vector<Scene> scenes{two_objects()};
+    for (const char* spec : {"crowd:objects=100", "farm:mesh=1000,instances=20"})
+        scenes.push_back(make_named_scene(spec)->scene);
+    for (const Scene& scene : scenes) {
+        ObjectWays ways(scene);
+        double time = -20.0;
+        for (int i = 0; i < 20'000; ++i) {
+            // Mostly a little later, at times anywhere, and at the keys themselves.
+            time = i % 50 == 0 ? random(-100, 1000) : time + random(0, 0.002);
+            const ObjectId object{
+                static_cast<std::uint32_t>(random(0, static_cast<double>(scene.object_count())))};
+            const double asked = i % 7 == 0 ? std::round(time) : time;
+            ASSERT_EQ(ways.placement_at(object, asked), placement_at(scene, object, asked)) << asked;
+        }
+    }
+}
+
 TEST(ObjectMotion, nothing_moves_faster_than_its_top_speed) {
     Uniform random(5);
     std::vector<Scene> scenes{two_objects()};

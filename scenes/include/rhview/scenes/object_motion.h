@@ -26,6 +26,33 @@ glm::dmat4 placement_at(const Scene& scene, ObjectId object, double time_s);
 /// No point of the object's mesh box moves faster, in units of the scene per second; 0: it stands still.
 double top_speed(const Scene& scene, ObjectId object);
 
+/// The same for frame after frame: it remembers on which part of its way each object is, and what that takes
+/// lies together, so that many are placed without a miss of the cache for each key.
+class ObjectWays {
+  public:
+    /// `scene` outlives it, and does not change.
+    explicit ObjectWays(const Scene& scene);
+
+    /// `placement_at`, to the last bit. Cost: about 0.05 µs while an object stays on one part of its way.
+    glm::dmat4 placement_at(ObjectId object, double time_s);
+
+  private:
+    /// Between two keys; of a still object: for ever.
+    struct Part {
+        glm::dmat4 start{1.0};
+        double period_s = 0.0;
+        double from_s = 0.0, to_s = 0.0, length_s = 1.0;
+        glm::dvec3 offset{0.0}, step{0.0};
+        double turns = 0.0, turns_step = 0.0;
+        std::uint32_t motion = DynamicObject::kStill;
+    };
+
+    void find_part(Part& part, double time) const;
+
+    const Scene& scene_;
+    std::vector<Part> parts_;  ///< by dynamic object
+};
+
 /// All objects at one time, by `ObjectId`.
 struct ObjectPlacements {
     std::vector<glm::dmat4> scene_from_mesh;
