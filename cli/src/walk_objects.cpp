@@ -17,7 +17,8 @@ void WalkObjects::begin(bool sleeping) {
     if (scene_.dynamic_objects.empty() || !sleeping) return;
     movers_.emplace();
     for (std::uint32_t i = 0; i < scene_.object_count(); ++i)
-        movers_->add(placements_.boxes[i], groups_[i], top_speed(scene_, ObjectId{i}));
+        movers_->add(placements_.boxes[i], groups_[i],
+                     MotionPromise{top_speed(scene_, ObjectId{i}), motion_range(scene_, ObjectId{i})});
 }
 
 void WalkObjects::move(double time_s) {

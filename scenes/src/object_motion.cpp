@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -18,6 +19,8 @@ namespace {
 
 /// The speeds of the segments are rounded up by this.
 constexpr double kRoundingUp = 1.0 + 1e-9;
+/// Of the largest coordinate: more than rounding to float and a placement's arithmetic take.
+constexpr double kBoxRounding = 1e-6;
 
 struct Pose {
     glm::dvec3 offset{0.0};
@@ -98,6 +101,29 @@ double top_speed(const Scene& scene, ObjectId object) {
         speed = std::max(speed, way / (keys[i].time_s - keys[i - 1].time_s));
     }
     return speed * kRoundingUp;
+}
+
+Aabb motion_range(const Scene& scene, ObjectId object) {
+    const Aabb& bounds = scene.meshes[index_of(scene.object_mesh(object))].bounds;
+    const Aabb start = transform_box(scene.object_placement(object), bounds);
+    const DynamicObject* moving = moving_object(scene, object);
+    if (moving == nullptr) return start;
+    const glm::dvec3 centre(moving->scene_from_mesh[3]);
+    const double reach = reach_of(scene, *moving) * kRoundingUp;
+    glm::dvec3 low(start.min), high(start.max);
+    const auto grow = [&](const glm::dvec3& offset) {
+        low = glm::min(low, glm::dvec3(start.min) + offset);
+        high = glm::max(high, glm::dvec3(start.max) + offset);
+        // It turns about the vertical through its origin.
+        for (const int axis : {0, 2}) {
+            low[axis] = std::min(low[axis], centre[axis] + offset[axis] - reach);
+            high[axis] = std::max(high[axis], centre[axis] + offset[axis] + reach);
+        }
+    };
+    for (const MotionKey& key : scene.motions[moving->motion].keys) grow(key.offset);
+    const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
+    const double margin = kBoxRounding * std::max({farthest.x, farthest.y, farthest.z});
+    return {glm::vec3(low - margin), glm::vec3(high + margin)};
 }
 
 ObjectWays::ObjectWays(const Scene& scene) : scene_(scene) {

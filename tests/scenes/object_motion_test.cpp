@@ -109,6 +109,29 @@ TEST(ObjectMotion, nothing_moves_faster_than_its_top_speed) {
     }
 }
 
+TEST(ObjectMotion, nothing_leaves_its_range_and_the_range_is_no_larger_than_its_way) {
+    std::vector<Scene> scenes{two_objects()};
+    for (const char* spec : {"farm:mesh=1000,instances=30", "crowd:objects=60", "swarm:objects=40"})
+        scenes.push_back(make_named_scene(spec)->scene);
+    for (const Scene& scene : scenes) {
+        std::vector<Aabb> seen(scene.object_count());
+        ObjectPlacements placements;
+        for (double time = 0.0; time < 200.0; time += 0.7) {
+            place_objects(scene, time, placements);
+            for (std::uint32_t i = 0; i < seen.size(); ++i) seen[i].grow(placements.boxes[i]);
+        }
+        for (std::uint32_t i = 0; i < seen.size(); ++i) {
+            const Aabb range = motion_range(scene, ObjectId{i});
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(range.min, seen[i].min)) &&
+                        glm::all(glm::lessThanEqual(seen[i].max, range.max)))
+                << scene.name << i;
+            // What turns may turn farther than it was seen: by less than its own size.
+            EXPECT_LT(glm::length(range.extent()),
+                      glm::length(seen[i].extent()) + glm::length(scene.object_boxes()[i].extent()) + 0.1f);
+        }
+    }
+}
+
 TEST(ObjectMotion, boxes_hold_their_objects_at_any_time) {
     const Scene scene = two_objects();
     ObjectPlacements placements;

@@ -26,8 +26,12 @@ glm::dmat4 placement_at(const Scene& scene, ObjectId object, double time_s);
 /// No point of the object's mesh box moves faster, in units of the scene per second; 0: it stands still.
 double top_speed(const Scene& scene, ObjectId object);
 
-/// The same for frame after frame: it remembers on which part of its way each object is, and what that takes
-/// lies together, so that many are placed without a miss of the cache for each key.
+/// No point of the object's mesh box is outside at any time: of a moving object all of its way, rounded
+/// outwards.
+Aabb motion_range(const Scene& scene, ObjectId object);
+
+/// `placement_at` for frame after frame: it remembers on which part of its way each object is, and what that
+/// takes lies together, so that many are placed without a miss of the cache for each key.
 class ObjectWays {
   public:
     /// `scene` outlives it, and does not change.
