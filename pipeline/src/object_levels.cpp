@@ -16,17 +16,18 @@ namespace rhview {
 ObjectLevels::ObjectLevels(std::span<const LodChain> chains, std::span<const LevelledObject> objects)
     : chains_(chains), objects_(objects.begin(), objects.end()), selector_(chains) {
     for (const LodChain& chain : chains) RHVIEW_ASSERT(chain.levels.size() <= 255);
-    for (const LevelledObject& object : objects_)
-        RHVIEW_ASSERT(object.chain == LevelledObject::kNoChain || object.chain < chains.size());
+    for (LevelledObject& object : objects_) {
+        if (object.chain == LevelledObject::kNoChain) continue;
+        RHVIEW_ASSERT(object.chain < chains.size());
+        if (chains[object.chain].levels.size() < 2) object.chain = LevelledObject::kNoChain;
+    }
 }
 
 /// Null: of full detail, always.
 const LevelledObject* ObjectLevels::find(ObjectId object) const {
     if (index_of(object) >= objects_.size()) return nullptr;
     const LevelledObject& levelled = objects_[index_of(object)];
-    const bool several =
-        levelled.chain != LevelledObject::kNoChain && chains_[levelled.chain].levels.size() > 1;
-    return several ? &levelled : nullptr;
+    return levelled.chain != LevelledObject::kNoChain ? &levelled : nullptr;
 }
 
 std::uint32_t ObjectLevels::indices(ObjectId object, std::uint32_t whole) const {

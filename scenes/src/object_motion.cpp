@@ -56,9 +56,9 @@ const DynamicObject* moving_object(const Scene& scene, ObjectId object) {
     return dynamic.motion == DynamicObject::kStill ? nullptr : &dynamic;
 }
 
-glm::dmat4 moved(const glm::dmat4& start, const Pose& pose) {
+glm::dmat4 moved(const glm::dmat4x3& start, const Pose& pose) {
     const CosSin turn = cos_sin_of_turns(pose.turns);
-    glm::dmat4 placement = start;
+    glm::dmat4 placement(start);
     for (int column = 0; column < 3; ++column) {
         const glm::dvec3 axis(start[column]);
         placement[column].x = turn.cos * axis.x + turn.sin * axis.z;
@@ -86,7 +86,7 @@ double reach_of(const Scene& scene, const DynamicObject& object) {
 glm::dmat4 placement_at(const Scene& scene, ObjectId object, double time_s) {
     const DynamicObject* moving = moving_object(scene, object);
     if (moving == nullptr) return scene.object_placement(object);
-    return moved(moving->scene_from_mesh, pose_at(scene.motions[moving->motion], time_s));
+    return moved(glm::dmat4x3(moving->scene_from_mesh), pose_at(scene.motions[moving->motion], time_s));
 }
 
 double top_speed(const Scene& scene, ObjectId object) {
@@ -130,7 +130,7 @@ ObjectWays::ObjectWays(const Scene& scene) : scene_(scene) {
     parts_.resize(scene.dynamic_objects.size());
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const DynamicObject& object = scene.dynamic_objects[i];
-        parts_[i].start = object.scene_from_mesh;
+        parts_[i].start = glm::dmat4x3(object.scene_from_mesh);
         parts_[i].motion = object.motion;
         if (object.motion != DynamicObject::kStill)
             parts_[i].period_s = scene.motions[object.motion].keys.back().time_s;
@@ -143,8 +143,7 @@ void ObjectWays::find_part(Part& part, double time) const {
     const MotionKey& b = next == nullptr ? scene_.motions[part.motion].keys.front() : *next;
     const MotionKey& a = next == nullptr ? b : *(next - 1);
     part.from_s = next == nullptr ? time : a.time_s;
-    part.to_s = b.time_s;
-    part.length_s = next == nullptr ? 1.0 : b.time_s - a.time_s;
+    part.to_s = next == nullptr ? time + 1.0 : b.time_s;
     part.offset = a.offset;
     part.step = b.offset - a.offset;
     part.turns = a.turns;
@@ -154,10 +153,10 @@ void ObjectWays::find_part(Part& part, double time) const {
 glm::dmat4 ObjectWays::placement_at(ObjectId object, double time_s) {
     if (index_of(object) >= parts_.size()) return scene_.object_placement(object);
     Part& part = parts_[index_of(object)];
-    if (part.motion == DynamicObject::kStill) return part.start;
+    if (part.motion == DynamicObject::kStill) return glm::dmat4(part.start);
     const double time = time_within(part.period_s, time_s);
     if (!(time >= part.from_s && time < part.to_s)) find_part(part, time);
-    const double t = (time - part.from_s) / part.length_s;
+    const double t = (time - part.from_s) / (part.to_s - part.from_s);
     return moved(part.start, {part.offset + t * part.step, part.turns + t * part.turns_step});
 }
 
@@ -172,7 +171,7 @@ void place_objects(const Scene& scene, double time_s, ObjectPlacements& placemen
         const DynamicObject& object = scene.dynamic_objects[i];
         if (object.motion == DynamicObject::kStill) continue;
         const glm::dmat4 placement =
-            moved(object.scene_from_mesh, pose_at(scene.motions[object.motion], time_s));
+            moved(glm::dmat4x3(object.scene_from_mesh), pose_at(scene.motions[object.motion], time_s));
         placements.scene_from_mesh[i] = placement;
         placements.boxes[i] = transform_box(placement, scene.meshes[index_of(object.mesh)].bounds);
     }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat4x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <string>
 #include <vector>
@@ -41,15 +42,16 @@ class ObjectWays {
     glm::dmat4 placement_at(ObjectId object, double time_s);
 
   private:
-    /// Between two keys; of a still object: for ever.
-    struct Part {
-        glm::dmat4 start{1.0};
+    /// Between two keys; of a still object: for ever. Three lines of the cache.
+    struct alignas(64) Part {
+        glm::dmat4x3 start{1.0};
         double period_s = 0.0;
-        double from_s = 0.0, to_s = 0.0, length_s = 1.0;
+        double from_s = 0.0, to_s = 0.0;
         glm::dvec3 offset{0.0}, step{0.0};
         double turns = 0.0, turns_step = 0.0;
         std::uint32_t motion = DynamicObject::kStill;
     };
+    static_assert(sizeof(Part) == 192);
 
     void find_part(Part& part, double time) const;
 
