@@ -3,10 +3,9 @@
 
 #include "walk_objects.h"
 
-#include <algorithm>
+#include "rhview/base/prefetch.h"
 
 namespace rhview::cli {
-
 WalkObjects::WalkObjects(const Scene& scene) : scene_(scene), groups_(object_groups(scene)), ways_(scene) {
     place_all(0.0);
 }
@@ -50,11 +49,14 @@ FrameInput WalkObjects::planner_input(const View& view, glm::ivec2 viewport) con
 
 void WalkObjects::place_planned(const FramePlan& plan, double time_s) {
     if (!movers_) return;
-    const auto place = [&](ObjectId object) {
-        placements_.scene_from_mesh[index_of(object)] = ways_.placement_at(object, time_s);
+    const auto place = [&](std::size_t count, const auto& object_at) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (i + kPrefetchSteps < count) ways_.prefetch(object_at(i + kPrefetchSteps));
+            placements_.scene_from_mesh[index_of(object_at(i))] = ways_.placement_at(object_at(i), time_s);
+        }
     };
-    std::ranges::for_each(plan.objects, place);
-    for (const ConditionalObject& object : plan.conditional_objects) place(object.object);
+    place(plan.objects.size(), [&](std::size_t i) { return plan.objects[i]; });
+    place(plan.conditional_objects.size(), [&](std::size_t i) { return plan.conditional_objects[i].object; });
     movers_->end_frame(plan);
 }
 

@@ -13,6 +13,7 @@
 #include "hierarchy_split.h"
 #include "order_ranges.h"
 #include "rhview/base/assert.h"
+#include "rhview/base/prefetch.h"
 
 namespace rhview {
 namespace {
@@ -20,6 +21,13 @@ namespace {
 constexpr std::uint32_t kMaxDepth = 64;
 // From here on boxes are halved: 2^32 of them take 32 levels more.
 constexpr std::uint32_t kHalveFrom = 31;
+
+/// Without a branch per coordinate.
+bool are_same(const Aabb& a, const Aabb& b) {
+    bool same = true;
+    for (int axis = 0; axis < 3; ++axis) same &= (a.min[axis] == b.min[axis]) & (a.max[axis] == b.max[axis]);
+    return same;
+}
 
 }  // namespace
 
@@ -100,8 +108,9 @@ void BoxHierarchy::refit_leaf(HierarchyNode& leaf, std::span<const Aabb> boxes, 
     const BoxSpans before = boxes_.spans();
     bool changed = all;
     for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+        if (i + kPrefetchSteps < order_.size()) prefetch(&boxes[index_of(order_[i + kPrefetchSteps])]);
         const Aabb& box = boxes[index_of(order_[i])];
-        if (before[i] == box) continue;
+        if (are_same(before[i], box)) continue;
         boxes_.set(i, box);
         changed = true;
     }

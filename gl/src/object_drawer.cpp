@@ -12,6 +12,7 @@
 #include "attributes.h"
 #include "program.h"
 #include "rhview/base/assert.h"
+#include "rhview/base/prefetch.h"
 #include "rhview/base/rounding.h"
 #include "rhview/gl/query_boxes.h"
 
@@ -126,8 +127,12 @@ void ObjectDrawer::place(const FramePlan& plan, const SceneBuffers& scene, const
     };
     for (std::size_t i = 0; i < plan.objects.size(); ++i)
         add(at_once_, plan.objects[i], plan.level_of_object(i), 0, false);
-    for (const ConditionalObject& object : plan.conditional_objects)
-        add(conditional_, object.object, object.level, object.query, true);
+    const std::span<const ConditionalObject> conditional = plan.conditional_objects;
+    for (std::size_t i = 0; i < conditional.size(); ++i) {
+        if (i + kPrefetchSteps < conditional.size())
+            prefetch(&placements[index_of(conditional[i + kPrefetchSteps].object)]);
+        add(conditional_, conditional[i].object, conditional[i].level, conditional[i].query, true);
+    }
     if (!data_.empty()) upload();
 }
 

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "rhview/base/assert.h"
+#include "rhview/base/prefetch.h"
 #include "shapes.h"
 
 namespace rhview {
@@ -158,6 +159,10 @@ glm::dmat4 ObjectWays::placement_at(ObjectId object, double time_s) {
     if (!(time >= part.from_s && time < part.to_s)) find_part(part, time);
     const double t = (time - part.from_s) / (part.to_s - part.from_s);
     return moved(part.start, {part.offset + t * part.step, part.turns + t * part.turns_step});
+}
+
+void ObjectWays::prefetch(ObjectId object) const {
+    if (index_of(object) < parts_.size()) rhview::prefetch(&parts_[index_of(object)]);
 }
 
 void place_objects(const Scene& scene, double time_s, ObjectPlacements& placements) {
