@@ -289,6 +289,7 @@ std::string to_json(const WalkReport& report) {
                      {"index_bytes", report.build.index_bytes},
                      {"vertex_bytes", report.build.vertex_bytes}};
     json["lod"] = {{"error_bound_px", report.lod.error_bound_px},
+                   {"policy", report.lod.policy},
                    {"budget_ms", or_null(report.lod.budget_ms)},
                    {"build_ms", or_null(report.lod.build_ms)},
                    {"levels", report.lod.levels},

@@ -13,6 +13,7 @@ WalkLevels::WalkLevels(const Scene& scene, std::span<const LodChain> chains, con
                        const TimingProfile* profile)
     : levels_(chains, levelled_objects(scene)) {
     options_.max_error_px = options.lod_error_px;
+    if (options.lod_policy == "fragments") options_.policy = LodPolicy::Fragments;
     for (std::uint32_t i = 0; i < scene.object_count(); ++i)
         whole_indices_.push_back(static_cast<std::uint32_t>(
             scene.meshes[index_of(scene.object_mesh(ObjectId{i}))].indices.size()));

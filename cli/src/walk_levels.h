@@ -20,6 +20,8 @@ class WalkLevels {
     WalkLevels(const Scene& scene, std::span<const LodChain> chains, const WalkOptions& options,
                const TimingProfile* profile);
 
+    /// To the queries of the frames before.
+    void absorb(std::span<const QueryAnswer> answers) { levels_.absorb(answers); }
     /// Of the objects of a plan that `input` was planned to.
     /// `profile`: the constants of now; null where nothing is predicted.
     void choose(const FrameInput& input, const TimingProfile* profile, FramePlan& plan, FrameRecord& record);

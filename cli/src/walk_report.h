@@ -110,6 +110,7 @@ struct WalkReport {
     };
     struct {
         double error_bound_px = 0.0;
+        std::string policy = "error";
         std::optional<double> budget_ms;
         std::optional<double> build_ms;  ///< of chains; absent: from a baked file, or none
         std::uint64_t levels = 0;        ///< of all chains, the meshes themselves not counted

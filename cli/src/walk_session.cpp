@@ -308,6 +308,7 @@ class WalkSession::Impl {
         const FrameInput input = objects_.planner_input(cameras.culling, viewport());
         const double moved_ms = timer.elapsed_ms();
         method_.planner->absorb(answers_);
+        if (levels_) levels_->absorb(answers_);
         method_.planner->plan(input, plan_);
         if (levels_) choose_levels(input, record);
         record.cull_ms = timer.elapsed_ms() - moved_ms;

@@ -177,10 +177,16 @@ void NodeVisibility::write_objects(const FrameInput& input, FramePlan& plan) {
                 plan.objects.push_back(object);
         };
         const std::uint32_t region = region_of_candidate_[c - leaf_of_candidate_.size()];
-        if (region != kNoRegion)
+        if (region != kNoRegion) {
             regions_.for_each_in_view(region, *frustum_, input.object_alive, words_, write);
-        else
-            write(ObjectId{(candidates_[c].item - first_object_item()) / 2});
+            continue;
+        }
+        const ObjectId object{(candidates_[c].item - first_object_item()) / 2};
+        write(object);
+        if (decision.query == OcclusionDecision::kNoQuery) continue;
+        const ScheduledQuery& query = decided_.queries[decision.query];
+        if (query.counts_samples && query.member_count == 1)
+            plan.counted_objects.push_back({object, decision.query});
     }
 }
 
