@@ -3,6 +3,8 @@
 
 #include "walk_objects.h"
 
+#include <algorithm>
+
 #include "rhview/base/prefetch.h"
 
 namespace rhview::cli {
@@ -58,6 +60,16 @@ void WalkObjects::place_planned(const FramePlan& plan, double time_s) {
     place(plan.objects.size(), [&](std::size_t i) { return plan.objects[i]; });
     place(plan.conditional_objects.size(), [&](std::size_t i) { return plan.conditional_objects[i].object; });
     movers_->end_frame(plan);
+}
+
+std::size_t WalkObjects::count_mesh_levels(const FramePlan& plan) {
+    mesh_levels_.clear();
+    for (std::size_t i = 0; i < plan.objects.size(); ++i)
+        mesh_levels_.push_back(std::uint64_t{groups_[index_of(plan.objects[i])]} << 8 |
+                               plan.level_of_object(i));
+    std::ranges::sort(mesh_levels_);
+    const auto repeated = std::ranges::unique(mesh_levels_);
+    return mesh_levels_.size() - repeated.size();
 }
 
 }  // namespace rhview::cli

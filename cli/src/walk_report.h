@@ -45,6 +45,8 @@ struct FrameRecord {
     std::uint64_t nodes_visited = 0;
     std::uint64_t visible_objects = 0;    ///< dynamic ones
     std::uint64_t visible_instances = 0;  ///< static ones
+    std::uint64_t object_draws = 0;       ///< calls that drew objects at once
+    std::uint64_t mesh_levels = 0;        ///< meshes, each at a level and mirrored or not, in those
     double cull_ms = 0.0;
     double frame_ms = 0.0;
     std::optional<double> gpu_ms;

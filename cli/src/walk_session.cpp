@@ -280,6 +280,8 @@ class WalkSession::Impl {
         answers_.swap(drawn_.answers);
         if (levels_) levels_->name_levels(plan_);
         if (levels_) record.lod_error_px = levels_->error_px(plan_, answers_);
+        record.object_draws = counters.object_draws;
+        record.mesh_levels = objects_.count_mesh_levels(plan_);
         record.nodes_visited = plan_.nodes_visited;
         for (const ObjectId id : plan_.objects) count_object(id, record);
         OcclusionRecord& o = record.occlusion.emplace();
@@ -327,6 +329,8 @@ class WalkSession::Impl {
         work_counter_->read(record.work);
         record.nodes_visited = plan_.nodes_visited;
         for (const ObjectId id : plan_.objects) count_object(id, record);
+        record.object_draws = counters.object_draws;
+        record.mesh_levels = objects_.count_mesh_levels(plan_);
         if (levels_) record.lod_error_px = levels_->error_px(plan_, answers_);
         if (plan_.occlusion) count_occlusion(counters, record);
         if (constants_) {

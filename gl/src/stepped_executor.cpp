@@ -128,6 +128,7 @@ struct SteppedExecutor::State {
             ++counters.material_changes;
             ++counters.draw_calls;
             ++counters.sub_draws;
+            ++counters.object_draws;
             counters.instances += run.instances;
             counters.indices += run.indices();
         }

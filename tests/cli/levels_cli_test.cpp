@@ -62,6 +62,18 @@ TEST_F(Levels, of_moving_objects_behind_walls_stay_exact) {
     }
 }
 
+TEST_F(Levels, a_mesh_at_a_level_takes_one_draw_call) {
+    const nlohmann::json walk = walk_json(
+        "farm:instances=300,mesh=3000 --frames 40 --rate 60 --excerpts 4 --size 240x136 --lod-error 1 " +
+        kCosts);
+    for (const nlohmann::json& frame : walk["per_frame"])
+        EXPECT_EQ(frame["object_draw_calls"], frame["visible_mesh_levels"]) << frame["frame"];
+    const double most_objects = walk["summary"]["visible_objects"]["max"];
+    EXPECT_GT(most_objects, 50);
+    EXPECT_GE(walk["summary"]["object_draw_calls"]["max"], 2);
+    EXPECT_LT(walk["summary"]["object_draw_calls"]["max"], 0.3 * most_objects);
+}
+
 TEST_F(Levels, the_visible_set_is_that_of_what_is_drawn) {
     const nlohmann::json walk = walk_json(kFarm + kCosts + "--visible-set --method octree --lod-error 4");
     EXPECT_GT(walk["summary"]["visible_set_indices"]["mean"], 0.0);
