@@ -3,29 +3,39 @@
 # SPDX-License-Identifier: MIT
 #
 # Installs what is missing, builds and tests: optimised with warnings as errors, then with the sanitizers; then a
-# minute of fuzzing.
+# minute of fuzzing, and views planned on several threads with the thread sanitizer.
 # Stops at the first step that fails; the last lines are CTest's own summary.
 #
-# usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only]
+# usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only | --tsan-only]
 
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 presets=(ci asan)
 fuzz=true
+tsan=true
 case "${1-}" in
     '') ;;
     --release-only)
         presets=(ci)
         fuzz=false
+        tsan=false
         ;;
     --asan-only)
         presets=(asan)
         fuzz=false
+        tsan=false
         ;;
-    --fuzz-only) presets=() ;;
+    --fuzz-only)
+        presets=()
+        tsan=false
+        ;;
+    --tsan-only)
+        presets=()
+        fuzz=false
+        ;;
     *)
-        echo "test: unknown option '$1'; usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only]" >&2
+        echo "test: unknown option '$1'; usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only | --tsan-only]" >&2
         exit 2
         ;;
 esac
@@ -60,4 +70,14 @@ if $fuzz; then
     # What it finds stays in the build folder; any finding ends the script.
     (cd "$root/build/fuzz" && ASAN_OPTIONS=detect_leaks=0 tests/fuzz/rhview_rho_fuzzer -max_total_time=60 \
         -max_len=262144 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 "$corpus" </dev/null)
+fi
+
+if $tsan; then
+    phase "tsan: build"
+    cmake --preset tsan </dev/null
+    cmake --build --preset tsan </dev/null
+    phase "tsan: views on several threads"
+    # One core, so that oneTBB starts no threads: its library is not instrumented, and what it hands over looks like races.
+    taskset -c "$(taskset -cp $$ | sed 's/.*: //; s/[-,].*//')" build/tsan/tests/pipeline/rhview_pipeline_tests \
+        --gtest_filter='PlanViews*:OcclusionPlanner.two_views*' </dev/null
 fi
