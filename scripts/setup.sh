@@ -30,6 +30,8 @@ packages=(
     libogre-1.12-dev libopenscenegraph-dev
     # tests and benchmarks
     libgtest-dev libbenchmark-dev
+    # the reference, made of the headers
+    doxygen
     # plots, and a browser that report pages are tested in
     python3-matplotlib chromium
 )

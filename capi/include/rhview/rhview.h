@@ -142,10 +142,12 @@ RHVIEW_API rhview_status rhview_costs_fit(const rhview_frame_sample* samples, si
 /** Static triangles, and the objects that move among them. */
 typedef struct rhview_scene rhview_scene;
 
+/** An axis-aligned box, both ends included. */
 typedef struct rhview_box {
     float min[3], max[3]; /**< in the scene's coordinates */
 } rhview_box;
 
+/** Where the scene lies, and how many objects it has at most. */
 typedef struct rhview_scene_options {
     size_t size;
     double origin[3];     /**< world position of the zero of every vertex and box */
@@ -164,6 +166,7 @@ typedef struct rhview_batch {
     uint32_t is_two_sided; /**< not 0: drawn from behind too */
 } rhview_batch;
 
+/** How fine to build, with which threads, and who is told how far it is. */
 typedef struct rhview_build_options {
     size_t size;
     const rhview_costs* costs;   /**< decides the granularity; null: a desktop GPU's */
@@ -192,6 +195,7 @@ RHVIEW_API rhview_status rhview_scene_indices(const rhview_scene* scene, const u
 
 /* Moving objects ----------------------------------------------------------------------------------------- */
 
+/** Something that moves: what the library has to know of it. */
 typedef struct rhview_object {
     size_t size;
     rhview_box box;       /**< holds all that is drawn of it */
@@ -241,6 +245,7 @@ enum {
     RHVIEW_DEPTH_REVERSED = 2             /**< near 1, far 0; the far plane may be at infinity */
 };
 
+/** What a view plans by. */
 typedef struct rhview_view_options {
     size_t size;
     const rhview_costs* costs; /**< null: a desktop GPU's, without queries */
@@ -250,6 +255,7 @@ typedef struct rhview_view_options {
     double band_hysteresis;    /**< share of its end that a band is left late by, 0 to 1 */
 } rhview_view_options;
 
+/** A camera in double precision. */
 typedef struct rhview_camera {
     size_t size;
     double camera_from_world[16];             /**< columns; rotation and translation, as a rule */
@@ -272,12 +278,14 @@ RHVIEW_API rhview_status rhview_plan_views(rhview_view* const* views, size_t cou
 
 /* The plan ----------------------------------------------------------------------------------------------- */
 
+/** A range of the index buffer, drawn with one batch's state. */
 typedef struct rhview_draw {
     uint32_t batch;
     uint32_t first_index; /**< into `rhview_scene_indices` */
     uint32_t index_count;
 } rhview_draw;
 
+/** An object to draw whole. */
 typedef struct rhview_object_draw {
     uint32_t object;
     uint32_t level; /**< of detail; 0 is all of it */
@@ -354,6 +362,7 @@ typedef struct rhview_changes {
     size_t became_hidden_count;
 } rhview_changes;
 
+/** Of one object in one view. */
 typedef struct rhview_object_state {
     size_t size;
     uint64_t last_seen_frame; /**< plans of this view before the one that showed it last; RHVIEW_NEVER */

@@ -37,6 +37,7 @@ struct LevelledObject {
     float scale = 1.0f;  ///< the longest that a unit of the mesh is in the scene: `largest_stretch`
 };
 
+/// How wrong a level may be, and what else decides.
 struct LevelOptions {
     double max_error_px = 1.0;  ///< 0: full detail, unless the budget forbids it
     /// `Fragments`: by what the answers that were absorbed count; `OcclusionOptions::counts_samples` asks for
