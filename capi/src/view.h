@@ -27,6 +27,12 @@ class View final : public FramePlanner {
     [[nodiscard]] bool has_camera() const { return has_camera_; }
     [[nodiscard]] const Scene& scene() const { return *scene_; }
 
+    /// Of the next plans; none: full detail.
+    void set_levels(const std::optional<LevelOptions>& options) { level_options_ = options; }
+    void set_levelled(ObjectId object, const LevelledObject& levelled);
+    /// Without what an object costs whatever its level.
+    [[nodiscard]] const LodCosts& level_costs() const { return level_costs_; }
+
     void absorb(std::span<const QueryAnswer> answers) override;
     /// Takes in what changed of the scene. Then the view can be planned.
     ViewToPlan prepare();
@@ -44,11 +50,19 @@ class View final : public FramePlanner {
     std::vector<ViewToPlan> to_plan;   ///< scratch of calls whose first view this is
 
   private:
+    static std::optional<OcclusionOptions> with_indices(std::optional<OcclusionOptions> occlusion,
+                                                        std::span<const std::uint32_t> object_indices);
     void find_new_objects();
+    void count_object_indices();
     void export_plan();
 
     std::shared_ptr<Scene> scene_;
+    std::vector<std::uint32_t> object_indices_;  ///< by object, at its level; never moves: the planner looks
     RhviewPlanner planner_;
+    std::optional<ObjectLevels> levels_;  ///< none: no object has chains
+    std::optional<LevelOptions> level_options_;
+    LodCosts level_costs_;
+    LevelSummary level_summary_;
     VisibilityReport report_;
     FrameInput input_;
     FramePlan plan_;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kMostPixels = 65'536;
 constexpr std::uint32_t kMostBands = 65'534;
 
-rhview_status occlusion_of(const rhview_view_options& options, const KnownCosts& costs, const Scene& scene,
+rhview_status occlusion_of(const rhview_view_options& options, const KnownCosts& costs,
                            std::optional<OcclusionOptions>& occlusion) {
     if (options.occlusion == RHVIEW_OCCLUSION_OFF) return RHVIEW_OK;
     if (options.occlusion > RHVIEW_OCCLUSION_LATENT)
@@ -27,7 +27,6 @@ rhview_status occlusion_of(const rhview_view_options& options, const KnownCosts&
         options.occlusion == RHVIEW_OCCLUSION_LATENT ? OcclusionMode::Latent : OcclusionMode::Exact;
     occlusion->costs = *costs.queries;
     occlusion->shown_index_ns = costs.shown_index_ns;
-    occlusion->object_indices = scene.object_indices;
     return RHVIEW_OK;
 }
 
@@ -51,12 +50,24 @@ rhview_status create(rhview_scene& scene, const rhview_view_options* given, rhvi
     KnownCosts costs;
     if (const rhview_status status = take_costs(options.costs, costs); status != RHVIEW_OK) return status;
     std::optional<OcclusionOptions> occlusion;
-    if (const rhview_status status = occlusion_of(options, costs, *scene.state, occlusion);
-        status != RHVIEW_OK)
+    if (const rhview_status status = occlusion_of(options, costs, occlusion); status != RHVIEW_OK)
         return status;
     VisibilityReportSettings report;
     if (const rhview_status status = report_of(options, report); status != RHVIEW_OK) return status;
     *view = new rhview_view{View(scene.state, costs, occlusion, std::move(report))};
+    return RHVIEW_OK;
+}
+
+rhview_status set_levels(View& view, const rhview_level_bounds& bounds) {
+    for (const double value : {bounds.max_error_px, bounds.budget_ns, bounds.object_ns})
+        if (!(std::isfinite(value) && value >= 0.0))
+            return fail(RHVIEW_INVALID_ARGUMENT, "rhview_level_bounds: a bound is negative or no number");
+    LevelOptions options;
+    options.max_error_px = bounds.max_error_px;
+    if (bounds.budget_ns > 0.0) options.budget_ns = bounds.budget_ns;
+    options.costs = view.level_costs();
+    options.costs.object_ns = bounds.object_ns;
+    view.set_levels(options);
     return RHVIEW_OK;
 }
 
@@ -121,6 +132,17 @@ rhview_status rhview_view_set_camera(rhview_view* view, const rhview_camera* cam
         if (const rhview_status status = take(camera, "rhview_camera", taken); status != RHVIEW_OK)
             return status;
         return set_camera(*view, taken);
+    });
+}
+
+rhview_status rhview_view_set_levels(rhview_view* view, const rhview_level_bounds* bounds) {
+    return guarded([&] {
+        if (view == nullptr) return fail(RHVIEW_INVALID_ARGUMENT, "rhview_view_set_levels: view is null");
+        if (bounds == nullptr) return view->state.set_levels(std::nullopt), rhview_status{RHVIEW_OK};
+        rhview_level_bounds taken;
+        if (const rhview_status status = take(bounds, "rhview_level_bounds", taken); status != RHVIEW_OK)
+            return status;
+        return set_levels(view->state, taken);
     });
 }
 

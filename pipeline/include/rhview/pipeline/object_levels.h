@@ -61,6 +61,10 @@ class ObjectLevels {
     /// has full detail.
     ObjectLevels(std::span<const LodChain> chains, std::span<const LevelledObject> objects);
 
+    /// Another object has the number now; its chain is one of the chains. What its number was drawn at is
+    /// forgotten where `FrameInput::new_objects` says so. Allocates for numbers beyond all before.
+    void set_object(ObjectId object, const LevelledObject& levelled);
+
     /// Sets the levels of all objects in `plan`, and puts them in the order that it promises. `input` is what
     /// the plan was made from. What was known of `FrameInput::new_objects` is forgotten. Cost: about 0.15 µs
     /// per object of several levels.
