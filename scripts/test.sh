@@ -2,30 +2,40 @@
 # SPDX-FileCopyrightText: 2026 The rhview authors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds and tests: optimised with warnings as errors, then with the sanitizers; then a
-# minute of fuzzing.
+# Installs what is missing, builds and tests: optimised with warnings as errors, then with the sanitizers; then two
+# minutes of fuzzing, and views planned on several threads with the thread sanitizer.
 # Stops at the first step that fails; the last lines are CTest's own summary.
 #
-# usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only]
+# usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only | --tsan-only]
 
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 presets=(ci asan)
 fuzz=true
+tsan=true
 case "${1-}" in
     '') ;;
     --release-only)
         presets=(ci)
         fuzz=false
+        tsan=false
         ;;
     --asan-only)
         presets=(asan)
         fuzz=false
+        tsan=false
         ;;
-    --fuzz-only) presets=() ;;
+    --fuzz-only)
+        presets=()
+        tsan=false
+        ;;
+    --tsan-only)
+        presets=()
+        fuzz=false
+        ;;
     *)
-        echo "test: unknown option '$1'; usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only]" >&2
+        echo "test: unknown option '$1'; usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only | --tsan-only]" >&2
         exit 2
         ;;
 esac
@@ -50,14 +60,16 @@ for preset in "${presets[@]}"; do
 done
 
 if $fuzz; then
-    phase "fuzz: build"
-    cmake --preset fuzz </dev/null
-    cmake --build --preset fuzz </dev/null
-    phase "fuzz: 60 seconds of baked files"
-    corpus="$root/build/fuzz/corpus"
-    rm -rf "$corpus"
-    "$root/build/fuzz/tests/fuzz/rhview_rho_corpus" "$corpus" </dev/null
-    # What it finds stays in the build folder; any finding ends the script.
-    (cd "$root/build/fuzz" && ASAN_OPTIONS=detect_leaks=0 tests/fuzz/rhview_rho_fuzzer -max_total_time=60 \
-        -max_len=262144 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 "$corpus" </dev/null)
+    phase "fuzz: 15 seconds of each target"
+    scripts/fuzz.sh 15
+fi
+
+if $tsan; then
+    phase "tsan: build"
+    cmake --preset tsan </dev/null
+    cmake --build --preset tsan </dev/null
+    phase "tsan: views on several threads"
+    # One core, so that oneTBB starts no threads: its library is not instrumented, and what it hands over looks like races.
+    taskset -c "$(taskset -cp $$ | sed 's/.*: //; s/[-,].*//')" build/tsan/tests/pipeline/rhview_pipeline_tests \
+        --gtest_filter='PlanViews*:OcclusionPlanner.two_views*' </dev/null
 fi

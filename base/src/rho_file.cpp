@@ -67,6 +67,8 @@ Result<RhoFile> RhoFile::parse(std::shared_ptr<const FileBytes> bytes, std::stri
     RhoFile file;
     file.name_ = std::move(name);
     file.bytes_ = std::move(bytes);
+    if (file.bytes_ == nullptr)
+        return Error{file.name_ + ": there is not enough memory to hold it; make some free"};
     std::uint32_t section_count = 0;
     if (Status status = file.read_header(section_count); !status) return status.error();
     if (Status status = file.read_table(section_count); !status) return status.error();

@@ -122,10 +122,17 @@ void add_culling_options(CLI::App* walk, WalkOptions& options) {
         ->type_name("PX")
         ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
-    walk->add_option(
-            "--budget", options.budget_ms,
-            "Frame budget: levels of detail give way to it, and each frame says whether it can be met")
+    walk->add_option("--lod-policy", options.lod_policy,
+                     "error: the coarsest level within --lod-error; fragments: coarser still where a query "
+                     "saw fewer fragments than triangles")
+        ->type_name("P")
+        ->capture_default_str();
+    walk->add_option("--budget", options.budget_ms,
+                     "Frame budget: levels of detail give way to it, and each frame says whether it can be "
+                     "met; 16.6 where no MS is given, none without the option")
         ->type_name("MS")
+        ->expected(0, 1)
+        ->default_str("16.6")
         ->check(CLI::Range(0.001, 1e6));
 }
 

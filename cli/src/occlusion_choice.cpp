@@ -46,6 +46,7 @@ Result<std::optional<OcclusionOptions>> choose_occlusion(const WalkOptions& opti
     occlusion.emplace();
     occlusion->costs = *costs;
     occlusion->settings.mode = options.mode == "latent" ? OcclusionMode::Latent : OcclusionMode::Exact;
+    occlusion->counts_samples = options.lod_policy == "fragments";
     occlusion->settings.visible_samples = std::max(1u, options.visible_pixels);
     occlusion->shown_index_ns =
         constants->profile.c1_ns + constants->profile.primitive_ns.value_or(0.0) / 3.0;

@@ -3,10 +3,9 @@
 
 #include "output_file.h"
 
-#include <unistd.h>
-
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace rhview::cli {
 namespace {
@@ -18,59 +17,31 @@ Error unwritable(const std::filesystem::path& file) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path file, std::filesystem::path temporary)
-    : file_(std::move(file)),
-      temporary_(std::move(temporary)),
-      stream_(temporary_.empty() ? file_ : temporary_, std::ios::binary) {}
-
-OutputFile::OutputFile(OutputFile&& other) noexcept
-    : file_(std::move(other.file_)),
-      temporary_(std::move(other.temporary_)),
-      stream_(std::move(other.stream_)) {
-    other.temporary_.clear();
-}
-
-OutputFile::~OutputFile() {
-    if (temporary_.empty()) return;
-    stream_.close();
-    std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);
-}
-
 Result<OutputFile> OutputFile::open(const std::filesystem::path& file) {
+    OutputFile output;
+    output.file_ = file;
+    // Devices and pipes are written to, never replaced.
     std::error_code error;
-    if (file.empty()) return Error{"an output file needs a name"};
-    if (std::filesystem::is_directory(file, error))
-        return Error{file.string() + ": is a folder; name a file in it"};
-    // Through links to the file meant; devices and pipes are written to, never replaced.
-    std::filesystem::path target = resolved(file);
-    if (target.empty()) return unwritable(file);
-    const bool in_place =
-        std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error);
-    std::filesystem::path temporary;
-    if (!in_place) {
-        temporary = target;
-        temporary += "." + std::to_string(getpid()) + ".part";
-        if (std::filesystem::exists(temporary, error)) return unwritable(file);
+    const std::filesystem::file_type type = std::filesystem::status(file, error).type();
+    if (type == std::filesystem::file_type::character || type == std::filesystem::file_type::fifo) {
+        output.device_.reset(std::fopen(output.file_.string().c_str(), "wb"));
+        if (output.device_ == nullptr) return unwritable(file);
+        return output;
     }
-    OutputFile output(std::move(target), std::move(temporary));
-    if (!output.stream_.is_open()) {
-        output.temporary_.clear();
-        return unwritable(file);
-    }
+    Result<ReplacementFile> replacement = ReplacementFile::create(file);
+    if (!replacement) return replacement.error();
+    output.replacement_.emplace(std::move(replacement).value());
     return output;
 }
 
 Status OutputFile::commit(std::string_view text) {
-    stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-    stream_.close();
-    if (!stream_) return unwritable(file_);
-    if (temporary_.empty()) return success();
-    std::error_code error;
-    std::filesystem::rename(temporary_, file_, error);
-    if (error) return unwritable(file_);
-    temporary_.clear();
-    return success();
+    if (replacement_) {
+        replacement_->write(text);
+        return replacement_->commit();
+    }
+    bool written = std::fwrite(text.data(), 1, text.size(), device_.get()) == text.size();
+    written = std::fclose(device_.release()) == 0 && written;
+    return written ? success() : unwritable(file_);
 }
 
 std::filesystem::path resolved(const std::filesystem::path& file) {

@@ -3,33 +3,35 @@
 
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <memory>
+#include <optional>
 #include <string_view>
 
-#include "rhview/base/result.h"
+#include "rhview/base/replacement_file.h"
 
 namespace rhview::cli {
 
-/// A text file that appears whole or not at all: written beside its place, then renamed. Opening it first
-/// tells of an unwritable place before any work is done. A device or pipe is written to as it is.
+/// A text file that appears whole or not at all (`ReplacementFile`). Opening it first tells of an unwritable
+/// place before any work is done. A device or pipe is written to as it is.
 class OutputFile {
   public:
     static Result<OutputFile> open(const std::filesystem::path& file);
-
-    OutputFile(OutputFile&& other) noexcept;
-    OutputFile& operator=(OutputFile&&) = delete;
-    ~OutputFile();
 
     /// Writes all of it and puts it in place.
     Status commit(std::string_view text);
 
   private:
-    OutputFile(std::filesystem::path file, std::filesystem::path temporary);
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+
+    OutputFile() = default;
 
     std::filesystem::path file_;
-    std::filesystem::path temporary_;  ///< empty once it is gone, and for devices and pipes
-    std::ofstream stream_;
+    std::optional<ReplacementFile> replacement_;
+    std::unique_ptr<std::FILE, Close> device_;  ///< where there is no replacement
 };
 
 /// The file that `file` means: absolute, links followed, also where it does not exist yet. Empty when it

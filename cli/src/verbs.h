@@ -55,6 +55,7 @@ struct WalkOptions {
     double replica_budget = 1.0;
     InstancesWanted instances;
     double lod_error_px = 1.0;
+    std::string lod_policy = "error";
     std::optional<double> budget_ms;
     bool check = false;
     int check_every = 1;

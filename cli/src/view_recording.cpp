@@ -129,6 +129,7 @@ std::string ViewSession::walk_command(const std::filesystem::path& path, int fra
     add("--instances", o.instances.policy, "auto");
     if (o.instances.budget_mib) command += fmt::format(" --instance-budget {}", *o.instances.budget_mib);
     if (o.lod_error_px != 1.0) command += fmt::format(" --lod-error {}", o.lod_error_px);
+    add("--lod-policy", o.lod_policy, "error");
     if (o.budget_ms) command += fmt::format(" --budget {}", *o.budget_ms);
     if (profile) command += " --profile " + quoted(profile->string());
     add("--set", set_option(stage_->ground.wanted), "");

@@ -55,6 +55,7 @@ WalkReport describe(const WalkOptions& options, const WalkGround& ground, const 
     report.occlusion = options.occlusion;
     report.leaf = method.max_leaf_triangles;
     report.lod.error_bound_px = options.lod_error_px;
+    report.lod.policy = options.lod_policy;
     report.lod.budget_ms = options.budget_ms;
     report.lod.build_ms = ground.chains_ms;
     for (const LodChain& chain : ground.chains) {

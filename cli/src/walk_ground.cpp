@@ -56,6 +56,12 @@ Status check_options(const WalkOptions& options) {
                                  options.occlusion, options.method)};
     if (options.submission != "plain" && options.submission != "multi")
         return Error{fmt::format("--submission {}: unknown; write plain or multi", options.submission)};
+    if (options.lod_policy != "error" && options.lod_policy != "fragments")
+        return Error{fmt::format("--lod-policy {}: unknown; write error or fragments", options.lod_policy)};
+    if (options.lod_policy == "fragments" &&
+        (options.method != "rhview" || options.occlusion == "off" || options.occlusion == "boxes"))
+        return Error{
+            "--lod-policy fragments: needs --method rhview and its hardware queries; leave out --occlusion"};
     if (options.budget_ms && interactive)
         return Error{
             fmt::format("--budget: {} draws as it finds, and plans no frame; leave it out", options.method)};

@@ -221,6 +221,11 @@ Json summary_json(const WalkReport& report) {
     summary["visible_instances"] =
         has_instances ? statistics(report, [](const FrameRecord& f) { return f.visible_instances; })
                       : Json(nullptr);
+    const bool has_any = has_objects || has_instances;
+    summary["object_draw_calls"] =
+        has_any ? statistics(report, [](const FrameRecord& f) { return f.object_draws; }) : Json(nullptr);
+    summary["visible_mesh_levels"] =
+        has_any ? statistics(report, [](const FrameRecord& f) { return f.mesh_levels; }) : Json(nullptr);
     summary["lod_error_px"] =
         has_objects ? statistics(report, [](const FrameRecord& f) { return f.lod_error_px; }) : Json(nullptr);
     summary["budget"] = budget_json(report);
@@ -289,6 +294,7 @@ std::string to_json(const WalkReport& report) {
                      {"index_bytes", report.build.index_bytes},
                      {"vertex_bytes", report.build.vertex_bytes}};
     json["lod"] = {{"error_bound_px", report.lod.error_bound_px},
+                   {"policy", report.lod.policy},
                    {"budget_ms", or_null(report.lod.budget_ms)},
                    {"build_ms", or_null(report.lod.build_ms)},
                    {"levels", report.lod.levels},
@@ -306,6 +312,8 @@ std::string to_json(const WalkReport& report) {
                                      {"primitives", counted(f.work.primitives)},
                                      {"fragments", counted(f.work.fragments)},
                                      {"passed_samples", counted(f.work.passed_samples)},
+                                     {"object_draw_calls", f.object_draws},
+                                     {"visible_mesh_levels", f.mesh_levels},
                                      {"queries", count(f.work.queries)},
                                      {"occlusion", occlusion_json(report, f.occlusion)},
                                      {"lod_error_px", has_objects ? Json(f.lod_error_px) : Json(nullptr)},

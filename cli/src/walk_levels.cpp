@@ -11,8 +11,12 @@ namespace rhview::cli {
 
 WalkLevels::WalkLevels(const Scene& scene, std::span<const LodChain> chains, const WalkOptions& options,
                        const TimingProfile* profile)
-    : scene_(scene), levels_(chains, levelled_objects(scene)) {
+    : levels_(chains, levelled_objects(scene)) {
     options_.max_error_px = options.lod_error_px;
+    if (options.lod_policy == "fragments") options_.policy = LodPolicy::Fragments;
+    for (std::uint32_t i = 0; i < scene.object_count(); ++i)
+        whole_indices_.push_back(static_cast<std::uint32_t>(
+            scene.meshes[index_of(scene.object_mesh(ObjectId{i}))].indices.size()));
     if (options.budget_ms && profile != nullptr) budget_.emplace(*options.budget_ms, profile->residuals);
 }
 
@@ -49,9 +53,8 @@ double WalkLevels::error_px(const FramePlan& plan, std::span<const QueryAnswer> 
 
 void WalkLevels::count_indices(const FramePlan& plan, std::vector<std::uint32_t>& object_indices) const {
     const auto count = [&](ObjectId object) {
-        const SceneMesh& mesh = scene_.meshes[index_of(scene_.object_mesh(object))];
-        object_indices[index_of(object)] =
-            levels_.indices(object, static_cast<std::uint32_t>(mesh.indices.size()));
+        const std::size_t i = index_of(object);
+        object_indices[i] = levels_.indices(object, whole_indices_[i]);
     };
     if (object_indices.empty()) return;
     std::ranges::for_each(plan.objects, count);

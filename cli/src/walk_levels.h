@@ -16,10 +16,12 @@ namespace rhview::cli {
 /// The levels of detail of one walk's objects.
 class WalkLevels {
   public:
-    /// `scene` and `chains` outlive it. `profile`: needed for a budget.
+    /// `chains` outlive it. `profile`: needed for a budget.
     WalkLevels(const Scene& scene, std::span<const LodChain> chains, const WalkOptions& options,
                const TimingProfile* profile);
 
+    /// To the queries of the frames before.
+    void absorb(std::span<const QueryAnswer> answers) { levels_.absorb(answers); }
     /// Of the objects of a plan that `input` was planned to.
     /// `profile`: the constants of now; null where nothing is predicted.
     void choose(const FrameInput& input, const TimingProfile* profile, FramePlan& plan, FrameRecord& record);
@@ -38,7 +40,7 @@ class WalkLevels {
     std::span<const std::uint8_t> complete(const FrameInput& input, const FramePlan& plan);
 
   private:
-    const Scene& scene_;
+    std::vector<std::uint32_t> whole_indices_;  ///< at full detail, by `ObjectId`
     LevelOptions options_;
     ObjectLevels levels_;
     std::optional<WalkBudget> budget_;

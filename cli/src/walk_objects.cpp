@@ -5,9 +5,10 @@
 
 #include <algorithm>
 
-namespace rhview::cli {
+#include "rhview/base/prefetch.h"
 
-WalkObjects::WalkObjects(const Scene& scene) : scene_(scene), groups_(object_groups(scene)) {
+namespace rhview::cli {
+WalkObjects::WalkObjects(const Scene& scene) : scene_(scene), groups_(object_groups(scene)), ways_(scene) {
     place_all(0.0);
 }
 
@@ -17,7 +18,8 @@ void WalkObjects::begin(bool sleeping) {
     if (scene_.dynamic_objects.empty() || !sleeping) return;
     movers_.emplace();
     for (std::uint32_t i = 0; i < scene_.object_count(); ++i)
-        movers_->add(placements_.boxes[i], groups_[i], top_speed(scene_, ObjectId{i}));
+        movers_->add(placements_.boxes[i], groups_[i],
+                     MotionPromise{top_speed(scene_, ObjectId{i}), motion_range(scene_, ObjectId{i})});
 }
 
 void WalkObjects::move(double time_s) {
@@ -27,7 +29,7 @@ void WalkObjects::move(double time_s) {
         const Aabb& bounds = scene_.meshes[index_of(scene_.object_mesh(object))].bounds;
         const bool stands = index_of(object) >= scene_.dynamic_objects.size();
         movers_->move(object, stands ? placements_.boxes[index_of(object)]
-                                     : transform_box(placement_at(scene_, object, time_s), bounds));
+                                     : transform_box(ways_.placement_at(object, time_s), bounds));
     }
 }
 
@@ -49,12 +51,25 @@ FrameInput WalkObjects::planner_input(const View& view, glm::ivec2 viewport) con
 
 void WalkObjects::place_planned(const FramePlan& plan, double time_s) {
     if (!movers_) return;
-    const auto place = [&](ObjectId object) {
-        placements_.scene_from_mesh[index_of(object)] = placement_at(scene_, object, time_s);
+    const auto place = [&](std::size_t count, const auto& object_at) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (i + kPrefetchSteps < count) ways_.prefetch(object_at(i + kPrefetchSteps));
+            placements_.scene_from_mesh[index_of(object_at(i))] = ways_.placement_at(object_at(i), time_s);
+        }
     };
-    std::ranges::for_each(plan.objects, place);
-    for (const ConditionalObject& object : plan.conditional_objects) place(object.object);
+    place(plan.objects.size(), [&](std::size_t i) { return plan.objects[i]; });
+    place(plan.conditional_objects.size(), [&](std::size_t i) { return plan.conditional_objects[i].object; });
     movers_->end_frame(plan);
+}
+
+std::size_t WalkObjects::count_mesh_levels(const FramePlan& plan) {
+    mesh_levels_.clear();
+    for (std::size_t i = 0; i < plan.objects.size(); ++i)
+        mesh_levels_.push_back(std::uint64_t{groups_[index_of(plan.objects[i])]} << 8 |
+                               plan.level_of_object(i));
+    std::ranges::sort(mesh_levels_);
+    const auto repeated = std::ranges::unique(mesh_levels_);
+    return mesh_levels_.size() - repeated.size();
 }
 
 }  // namespace rhview::cli

@@ -27,6 +27,10 @@ class WalkObjects {
 
     /// Every object, drawn or not: for comparisons, and for methods that find as they draw.
     void place_all(double time_s) { place_objects(scene_, time_s, placements_); }
+    /// How many meshes, each at a level and mirrored or not, the plan draws at once: what as few calls could
+    /// draw as there are.
+    [[nodiscard]] std::size_t count_mesh_levels(const FramePlan& plan);
+
     /// With all objects where they were placed last.
     [[nodiscard]] FrameInput input(const View& view, glm::ivec2 viewport) const;
     [[nodiscard]] std::span<const glm::dmat4> scene_from_mesh() const { return placements_.scene_from_mesh; }
@@ -34,8 +38,10 @@ class WalkObjects {
   private:
     const Scene& scene_;
     std::vector<std::uint32_t> groups_;
+    ObjectWays ways_;
     ObjectPlacements placements_;  ///< of the frame; with `movers_`, of what was last drawn or compared
     std::optional<MovingObjects> movers_;
+    std::vector<std::uint64_t> mesh_levels_;  ///< scratch
 };
 
 }  // namespace rhview::cli

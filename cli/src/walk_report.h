@@ -45,6 +45,8 @@ struct FrameRecord {
     std::uint64_t nodes_visited = 0;
     std::uint64_t visible_objects = 0;    ///< dynamic ones
     std::uint64_t visible_instances = 0;  ///< static ones
+    std::uint64_t object_draws = 0;       ///< calls that drew objects at once
+    std::uint64_t mesh_levels = 0;        ///< meshes, each at a level and mirrored or not, in those
     double cull_ms = 0.0;
     double frame_ms = 0.0;
     std::optional<double> gpu_ms;
@@ -110,6 +112,7 @@ struct WalkReport {
     };
     struct {
         double error_bound_px = 0.0;
+        std::string policy = "error";
         std::optional<double> budget_ms;
         std::optional<double> build_ms;  ///< of chains; absent: from a baked file, or none
         std::uint64_t levels = 0;        ///< of all chains, the meshes themselves not counted

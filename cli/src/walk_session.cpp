@@ -280,6 +280,8 @@ class WalkSession::Impl {
         answers_.swap(drawn_.answers);
         if (levels_) levels_->name_levels(plan_);
         if (levels_) record.lod_error_px = levels_->error_px(plan_, answers_);
+        record.object_draws = counters.object_draws;
+        record.mesh_levels = objects_.count_mesh_levels(plan_);
         record.nodes_visited = plan_.nodes_visited;
         for (const ObjectId id : plan_.objects) count_object(id, record);
         OcclusionRecord& o = record.occlusion.emplace();
@@ -308,6 +310,7 @@ class WalkSession::Impl {
         const FrameInput input = objects_.planner_input(cameras.culling, viewport());
         const double moved_ms = timer.elapsed_ms();
         method_.planner->absorb(answers_);
+        if (levels_) levels_->absorb(answers_);
         method_.planner->plan(input, plan_);
         if (levels_) choose_levels(input, record);
         record.cull_ms = timer.elapsed_ms() - moved_ms;
@@ -326,6 +329,8 @@ class WalkSession::Impl {
         work_counter_->read(record.work);
         record.nodes_visited = plan_.nodes_visited;
         for (const ObjectId id : plan_.objects) count_object(id, record);
+        record.object_draws = counters.object_draws;
+        record.mesh_levels = objects_.count_mesh_levels(plan_);
         if (levels_) record.lod_error_px = levels_->error_px(plan_, answers_);
         if (plan_.occlusion) count_occlusion(counters, record);
         if (constants_) {

@@ -28,10 +28,6 @@ BoxSpans BoxSpans::subspan(std::size_t first, std::size_t length) const {
     return {min_x + first, min_y + first, min_z + first, max_x + first, max_y + first, max_z + first, length};
 }
 
-Aabb BoxSpans::operator[](std::size_t i) const {
-    return {{min_x[i], min_y[i], min_z[i]}, {max_x[i], max_y[i], max_z[i]}};
-}
-
 void BoxArrays::assign(std::span<const Aabb> boxes) {
     for (std::vector<float>& values : values_) values.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) set_box(values_, i, boxes[i]);

@@ -13,6 +13,7 @@
 #include "hierarchy_split.h"
 #include "order_ranges.h"
 #include "rhview/base/assert.h"
+#include "rhview/base/prefetch.h"
 
 namespace rhview {
 namespace {
@@ -20,6 +21,13 @@ namespace {
 constexpr std::uint32_t kMaxDepth = 64;
 // From here on boxes are halved: 2^32 of them take 32 levels more.
 constexpr std::uint32_t kHalveFrom = 31;
+
+/// Without a branch per coordinate.
+bool are_same(const Aabb& a, const Aabb& b) {
+    bool same = true;
+    for (int axis = 0; axis < 3; ++axis) same &= (a.min[axis] == b.min[axis]) & (a.max[axis] == b.max[axis]);
+    return same;
+}
 
 }  // namespace
 
@@ -88,26 +96,39 @@ BoxHierarchy::BoxHierarchy(std::span<const Aabb> boxes, const HierarchyOptions& 
     RHVIEW_ASSERT(options.max_leaf_boxes >= 1 && options.max_leaf_boxes <= 64);
     HierarchyBuilder(*this, boxes, options).build();
     boxes_.resize(boxes.size());
-    refit(boxes);
+    refit(boxes, true);
 }
 
 void BoxHierarchy::refit(std::span<const Aabb> boxes) {
-    RHVIEW_ASSERT(boxes.size() == order_.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) boxes_.set(i, boxes[index_of(order_[i])]);
-    refit_nodes();
+    refit(boxes, false);
 }
 
-void BoxHierarchy::refit_nodes() {
-    const BoxSpans boxes = boxes_.spans();
+/// Where few boxes move, most leaves only have theirs compared.
+void BoxHierarchy::refit_leaf(HierarchyNode& leaf, std::span<const Aabb> boxes, bool all) {
+    const BoxSpans before = boxes_.spans();
+    bool changed = all;
+    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+        if (i + kPrefetchSteps < order_.size()) prefetch(&boxes[index_of(order_[i + kPrefetchSteps])]);
+        const Aabb& box = boxes[index_of(order_[i])];
+        if (are_same(before[i], box)) continue;
+        boxes_.set(i, box);
+        changed = true;
+    }
+    if (!changed) return;
+    leaf.bounds = {};
+    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
+        leaf.bounds.grow(bounds_for_hierarchy(boxes[index_of(order_[i])]));
+}
+
+void BoxHierarchy::refit(std::span<const Aabb> boxes, bool all) {
     // Children stand behind their parents.
     for (std::size_t i = nodes_.size(); i-- > 0;) {
         HierarchyNode& node = nodes_[i];
-        node.bounds = {};
         if (node.escape == i + 1) {
-            for (std::uint32_t b = node.first; b < node.first + node.count; ++b)
-                node.bounds.grow(bounds_for_hierarchy(boxes[b]));
+            refit_leaf(node, boxes, all);
             continue;
         }
+        node.bounds = {};
         for (std::uint32_t child = static_cast<std::uint32_t>(i) + 1; child < node.escape;
              child = nodes_[child].escape)
             node.bounds.grow(nodes_[child].bounds);

@@ -31,15 +31,15 @@ ExecutedDraws count_executed(const FramePlan& plan, const SceneBuffers& scene,
     // Neighbours of one mesh, level, mirroring and query are instances of one draw.
     const auto draw_of = [&](const ConditionalObject& object) {
         const std::size_t id = index_of(object.object);
-        const ObjectInstance& instance = scene.objects()[id];
-        return std::tuple(object.query, object.level, instance.mesh,
-                          is_mirrored(id < placements.size() ? placements[id] : instance.scene_from_mesh));
+        return std::tuple(object.query, object.level, scene.object_meshes()[id],
+                          is_mirrored(id < placements.size() ? placements[id] : scene.placements()[id]));
     };
     for (std::size_t i = 0; i < plan.conditional_objects.size(); ++i) {
         const ConditionalObject& object = plan.conditional_objects[i];
-        const ObjectInstance& instance = scene.objects()[index_of(object.object)];
         const bool new_range = i == 0 || draw_of(object) != draw_of(plan.conditional_objects[i - 1]);
-        add(object.query, scene.level_range(instance, object.level).index_count, new_range);
+        add(object.query,
+            scene.level_range(scene.object_meshes()[index_of(object.object)], object.level).index_count,
+            new_range);
     }
     return executed;
 }

@@ -202,6 +202,7 @@ void Executor::draw_at_once(const FramePlan& plan, const SceneBuffers& scene, co
         ++counters.material_changes;
         ++counters.draw_calls;
         ++counters.sub_draws;
+        ++counters.object_draws;
         counters.instances += run.instances;
         counters.indices += run.indices();
     }

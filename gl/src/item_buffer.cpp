@@ -113,11 +113,11 @@ std::span<const std::uint32_t> ItemBuffer::item_pixels(std::span<const ItemRange
         draw(scene.batches()[index_of(part.range.batch)], part.range.first_index, part.range.index_count,
              part.item);
     std::uint32_t item = first_object;
-    for (std::size_t i = 0; i < scene.objects().size(); ++i) {
-        const ObjectInstance& object = scene.objects()[i];
-        set_transform(view, scene.origin(), i < placements.size() ? placements[i] : object.scene_from_mesh);
-        const LevelRange range = scene.level_range(object, i < levels.size() ? levels[i] : 0u);
-        draw(object.state, range.first_index, range.index_count, item);
+    for (std::size_t i = 0; i < scene.object_meshes().size(); ++i) {
+        const std::uint32_t mesh = scene.object_meshes()[i];
+        set_transform(view, scene.origin(), i < placements.size() ? placements[i] : scene.placements()[i]);
+        const LevelRange range = scene.level_range(mesh, i < levels.size() ? levels[i] : 0u);
+        draw(scene.meshes()[mesh].state, range.first_index, range.index_count, item);
         if (first_object != kNoItem) ++item;
     }
     pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));

@@ -12,6 +12,7 @@
 #include "attributes.h"
 #include "program.h"
 #include "rhview/base/assert.h"
+#include "rhview/base/prefetch.h"
 #include "rhview/base/rounding.h"
 #include "rhview/gl/query_boxes.h"
 
@@ -77,19 +78,21 @@ Result<ObjectDrawer> ObjectDrawer::create(const char* fragment_shader) {
     return drawer;
 }
 
-InstanceData ObjectDrawer::place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool conditional) {
-    const glm::dmat3 linear(scene_from_mesh);
-    const SplitPosition split =
-        split_position(glm::inverse(linear) * (eye.position - glm::dvec3(scene_from_mesh[3])));
-    InstanceData data;
-    data.clip_from_relative = glm::mat4(eye.clip_from_relative * glm::dmat4(linear));
+void ObjectDrawer::place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool conditional,
+                             InstanceData& data) {
+    const glm::dmat3 linear(scene_from_mesh), inverse(glm::inverse(linear));
+    const SplitPosition split = split_position(inverse * (eye.position - glm::dvec3(scene_from_mesh[3])));
+    const glm::dmat4& clip = eye.clip_from_relative;
+    for (int column = 0; column < 3; ++column) {
+        const glm::dvec3& axis = linear[column];
+        data.clip_from_relative[column] = glm::vec4(clip[0] * axis.x + clip[1] * axis.y + clip[2] * axis.z);
+        data.scene_from_mesh[column] = glm::vec4(glm::vec3(axis), 0.0f);
+    }
+    data.clip_from_relative[3] = glm::vec4(clip[3]);
     data.eye_high = split.high;
     data.eye_low = split.low;
-    data.handedness = is_mirrored(scene_from_mesh) ? -1.0f : 1.0f;
-    for (int column = 0; column < 3; ++column)
-        data.scene_from_mesh[column] = glm::vec4(glm::vec3(linear[column]), 0.0f);
-    if (conditional) largest_growth_ = std::max(largest_growth_, rounding_growth(scene_from_mesh));
-    return data;
+    data.handedness = glm::determinant(linear) < 0.0 ? -1.0f : 1.0f;
+    if (conditional) largest_growth_ = std::max(largest_growth_, rounding_growth(linear, inverse));
 }
 
 void ObjectDrawer::append(std::vector<ObjectRun>& runs, const ObjectRun& one) {
@@ -105,26 +108,31 @@ void ObjectDrawer::append(std::vector<ObjectRun>& runs, const ObjectRun& one) {
 
 void ObjectDrawer::place(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                          std::span<const glm::dmat4> placements) {
-    RHVIEW_ASSERT(placements.empty() || placements.size() >= scene.objects().size());
+    if (placements.empty()) placements = scene.placements();
+    RHVIEW_ASSERT(placements.size() >= scene.object_meshes().size());
     RHVIEW_ASSERT(plan.object_levels.empty() || plan.object_levels.size() == plan.objects.size());
-    data_.clear();
+    data_.resize(plan.objects.size() + plan.conditional_objects.size());
+    std::uint32_t place = 0;
     at_once_.clear();
     conditional_.clear();
     largest_growth_ = 1.0;
     const Eye eye(view, scene.origin());
     const auto add = [&](std::vector<ObjectRun>& runs, ObjectId id, std::uint8_t level, std::uint32_t query,
                          bool conditional) {
-        const ObjectInstance& object = scene.objects()[index_of(id)];
-        const bool moved = index_of(id) < placements.size();
-        data_.push_back(
-            place_one(eye, moved ? placements[index_of(id)] : object.scene_from_mesh, conditional));
-        append(runs, {&object, scene.level_range(object, level), static_cast<std::uint32_t>(data_.size() - 1),
-                      1, query, level, data_.back().handedness < 0.0f});
+        const std::uint32_t mesh = scene.object_meshes()[index_of(id)];
+        InstanceData& data = data_[place];
+        place_one(eye, placements[index_of(id)], conditional, data);
+        append(runs, {&scene.meshes()[mesh], scene.level_range(mesh, level), place++, 1, query, level,
+                      data.handedness < 0.0f});
     };
     for (std::size_t i = 0; i < plan.objects.size(); ++i)
         add(at_once_, plan.objects[i], plan.level_of_object(i), 0, false);
-    for (const ConditionalObject& object : plan.conditional_objects)
-        add(conditional_, object.object, object.level, object.query, true);
+    const std::span<const ConditionalObject> conditional = plan.conditional_objects;
+    for (std::size_t i = 0; i < conditional.size(); ++i) {
+        if (i + kPrefetchSteps < conditional.size())
+            prefetch(&placements[index_of(conditional[i + kPrefetchSteps].object)]);
+        add(conditional_, conditional[i].object, conditional[i].level, conditional[i].query, true);
+    }
     if (!data_.empty()) upload();
 }
 
@@ -142,8 +150,8 @@ void ObjectDrawer::begin(const std::optional<glm::vec3>& colour) const {
 }
 
 void ObjectDrawer::set_state(const ObjectRun& run) const {
-    const DrawState& state = run.object->state;
-    glBindVertexArray(run.object->instanced_array);
+    const DrawState& state = run.mesh->state;
+    glBindVertexArray(run.mesh->instanced_array);
     glBindVertexBuffer(kInstanceBinding, instances_.name(), 0, sizeof(InstanceData));
     glVertexAttrib4f(kNormalAttribute, 0.0f, 0.0f, 0.0f, 0.0f);
     if (!state.vertex_colours)

@@ -23,7 +23,7 @@ bool is_mirrored(const glm::dmat4& scene_from_mesh);
 
 /// Neighbours in a plan that one instanced call draws: of one mesh, level and mirroring, on one query.
 struct ObjectRun {
-    const ObjectInstance* object = nullptr;  ///< the first
+    const MeshState* mesh = nullptr;
     LevelRange range;
     std::uint32_t first_instance = 0;
     std::uint32_t instances = 0;
@@ -34,7 +34,7 @@ struct ObjectRun {
     [[nodiscard]] std::uint64_t indices() const { return std::uint64_t{range.index_count} * instances; }
     /// Whether nothing but the indices has to be changed between the two.
     [[nodiscard]] bool shares_state(const ObjectRun& other) const {
-        return object->mesh == other.object->mesh && mirrored == other.mirrored;
+        return mesh == other.mesh && mirrored == other.mirrored;
     }
 };
 
@@ -71,7 +71,7 @@ class ObjectDrawer {
 
   private:
     struct Eye;
-    InstanceData place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool conditional);
+    void place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool conditional, InstanceData& data);
     static void append(std::vector<ObjectRun>& runs, const ObjectRun& one);
     void upload() const;
 

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <fstream>
+#include <span>
 #include <string>
-#include <system_error>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -15,6 +14,7 @@
 #pragma GCC diagnostic pop
 
 #include "rhview/base/assert.h"
+#include "rhview/base/replacement_file.h"
 #include "stb.h"
 
 namespace rhview::gl {
@@ -66,23 +66,12 @@ void Picture::label(std::string_view text) {
 
 Status Picture::save_png(const std::filesystem::path& file) const {
     const std::vector<std::uint8_t> png = encode_png(bytes_.data(), width_, height_);
-    std::filesystem::path temporary = file;
-    temporary += ".part";
-    std::error_code error;
-    {
-        std::ofstream out(temporary, std::ios::binary);
-        out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-        out.close();
-        if (!out || png.empty()) {
-            std::filesystem::remove(temporary, error);
-            return Error{file.string() + ": can't be written; check the folder and the free space"};
-        }
-    }
-    std::filesystem::rename(temporary, file, error);
-    if (!error) return success();
-    const std::string reason = error.message();
-    std::filesystem::remove(temporary, error);
-    return Error{file.string() + ": can't be written (" + reason + ")"};
+    if (png.empty())
+        return Error{file.string() + ": can't be written: there is no memory for its compression"};
+    Result<ReplacementFile> replacement = ReplacementFile::create(file);
+    if (!replacement) return replacement.error();
+    replacement->write(std::as_bytes(std::span(png)));
+    return replacement->commit();
 }
 
 Picture difference_picture(const Picture& reference, std::span<const float> culled_depths,

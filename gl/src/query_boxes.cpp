@@ -80,7 +80,10 @@ bool is_finite(const glm::dvec3& v) {
 
 double rounding_growth(const glm::dmat4& scene_from_mesh) {
     const glm::dmat3 linear(scene_from_mesh);
-    const glm::dmat3 inverse = glm::inverse(linear);
+    return rounding_growth(linear, glm::inverse(linear));
+}
+
+double rounding_growth(const glm::dmat3& linear, const glm::dmat3& inverse) {
     double growth = 1.0;
     for (int row = 0; row < 3; ++row) {
         double sum = 0.0;

@@ -130,22 +130,25 @@ void SceneBuffers::list_objects(const Scene& scene, std::span<const std::uint32_
                          material.two_sided};
     };
     for (const SceneBatch& batch : scene.batches) batches_.push_back(state_of(batch.material, batch.pool));
-    objects_.reserve(scene.object_count());
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const SceneMesh& mesh = scene.meshes[i];
+        meshes_.push_back({state_of(mesh.material, mesh.pool),
+                           instanced_arrays_[mesh.pool].name(),
+                           {first_of_mesh[i], static_cast<std::uint32_t>(mesh.indices.size())}});
+    }
+    object_meshes_.reserve(scene.object_count());
+    placements_.reserve(scene.object_count());
     for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
-        const std::size_t number = index_of(scene.object_mesh(ObjectId{i}));
-        const SceneMesh& mesh = scene.meshes[number];
-        objects_.push_back({state_of(mesh.material, mesh.pool), instanced_arrays_[mesh.pool].name(),
-                            static_cast<std::uint32_t>(number), first_of_mesh[number],
-                            static_cast<std::uint32_t>(mesh.indices.size()),
-                            scene.object_placement(ObjectId{i})});
+        object_meshes_.push_back(static_cast<std::uint32_t>(scene.object_mesh(ObjectId{i})));
+        placements_.push_back(scene.object_placement(ObjectId{i}));
     }
 }
 
-LevelRange SceneBuffers::level_range(const ObjectInstance& object, std::uint32_t level) const {
-    const std::uint32_t first = first_level_[object.mesh], end = first_level_[object.mesh + 1];
+LevelRange SceneBuffers::level_range(std::uint32_t mesh, std::uint32_t level) const {
+    const std::uint32_t first = first_level_[mesh], end = first_level_[mesh + 1];
     RHVIEW_ASSERT(level <= end - first);
     level = std::min(level, end - first);
-    return level == 0 ? LevelRange{object.first_index, object.index_count} : levels_[first + level - 1];
+    return level == 0 ? meshes_[mesh].whole : levels_[first + level - 1];
 }
 
 Result<SceneBuffers> SceneBuffers::upload(const Scene& scene, std::span<const std::uint32_t> static_indices,

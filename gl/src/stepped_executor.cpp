@@ -39,10 +39,9 @@ class Stopwatch {
 /// Of all objects: any of them may be asked about.
 double largest_growth(const SceneBuffers& scene, std::span<const glm::dmat4> placements) {
     double growth = 1.0;
-    for (std::size_t i = 0; i < scene.objects().size(); ++i)
-        growth = std::max(
-            growth,
-            rounding_growth(i < placements.size() ? placements[i] : scene.objects()[i].scene_from_mesh));
+    for (std::size_t i = 0; i < scene.placements().size(); ++i)
+        growth =
+            std::max(growth, rounding_growth(i < placements.size() ? placements[i] : scene.placements()[i]));
     return growth;
 }
 
@@ -111,7 +110,7 @@ struct SteppedExecutor::State {
         if (options.object_levels.empty()) return;
         const auto level_of = [&](ObjectId id) { return options.object_levels[index_of(id)]; };
         std::ranges::sort(placed.objects, {}, [&](ObjectId id) {
-            return std::tuple(scene->objects()[index_of(id)].mesh, level_of(id), id);
+            return std::tuple(scene->object_meshes()[index_of(id)], level_of(id), id);
         });
         for (const ObjectId id : placed.objects) placed.object_levels.push_back(level_of(id));
     }
@@ -129,6 +128,7 @@ struct SteppedExecutor::State {
             ++counters.material_changes;
             ++counters.draw_calls;
             ++counters.sub_draws;
+            ++counters.object_draws;
             counters.instances += run.instances;
             counters.indices += run.indices();
         }

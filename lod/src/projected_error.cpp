@@ -41,11 +41,11 @@ ScreenRange range_on_screen(const Row& x, const Row& w, const BoundingSphere& sp
     return {std::clamp(s - reach, -1.0, 1.0), std::clamp(s + reach, -1.0, 1.0)};
 }
 
-/// The greatest singular value of the 2×3 matrix of rows `u` and `v`.
-double stretch(const glm::dvec3& u, const glm::dvec3& v) {
+/// The square of the greatest singular value of the 2×3 matrix of rows `u` and `v`.
+double squared_stretch(const glm::dvec3& u, const glm::dvec3& v) {
     const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v);
     const double half_difference = 0.5 * (uu - vv);
-    return std::sqrt(0.5 * (uu + vv) + std::sqrt(half_difference * half_difference + uv * uv));
+    return 0.5 * (uu + vv) + std::sqrt(half_difference * half_difference + uv * uv);
 }
 
 }  // namespace
@@ -81,11 +81,14 @@ double pixels_per_unit(const glm::dmat4& clip_from_object, const BoundingSphere&
     if (w.at(sphere.centre) + w_reach < 0.0) return 0.0;
     if (!(w_min > 0.0)) return kInfinity;
     const ScreenRange s = range_on_screen(x, w, sphere, w_min), t = range_on_screen(y, w, sphere, w_min);
+    const glm::dvec3 u[2]{0.5 * width_px * (x.linear - s.low * w.linear),
+                          0.5 * width_px * (x.linear - s.high * w.linear)};
+    const glm::dvec3 v[2]{0.5 * height_px * (y.linear - t.low * w.linear),
+                          0.5 * height_px * (y.linear - t.high * w.linear)};
     double most = 0.0;
-    for (const double at_x : {s.low, s.high})
-        for (const double at_y : {t.low, t.high})
-            most = std::max(most, stretch(0.5 * width_px * (x.linear - at_x * w.linear),
-                                          0.5 * height_px * (y.linear - at_y * w.linear)));
+    for (const glm::dvec3& across : u)
+        for (const glm::dvec3& up : v) most = std::max(most, squared_stretch(across, up));
+    most = std::sqrt(most);
     // A NaN in x or y is lost in max, but not in a sum.
     const double sum = s.low + s.high + t.low + t.high;
     return std::isfinite(sum) && std::isfinite(most) ? most / w_min : kInfinity;

@@ -27,6 +27,7 @@ void FramePlan::clear() {
     queries.clear();
     conditional.clear();
     conditional_objects.clear();
+    counted_objects.clear();
     chosen.clear();
     nodes_visited = 0;
     occlusion.reset();

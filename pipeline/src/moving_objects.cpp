@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
+#include <limits>
 
 #include "rhview/base/assert.h"
 
@@ -20,6 +21,10 @@ constexpr double kRounding = 1e-6;
 /// Steps of the period: up by less than down, so that a volume is too large, and drawn for nothing, now and
 /// then and not every other time.
 constexpr double kLonger = 1.25, kShorter = 0.5;
+
+/// A range that was seen is tried again after 2^this unseen expiries at most: a minute, at the longest
+/// period, since by then the eye may be elsewhere.
+constexpr std::uint8_t kMostFailures = 6;
 
 /// `box` and all that is within `distance` of it, rounded outwards.
 Aabb grown(const Aabb& box, double distance) {
@@ -62,7 +67,7 @@ void MovingObjects::wake(std::uint32_t object) {
     awake_.push_back(ObjectId{object});
 }
 
-ObjectId MovingObjects::add(const Aabb& box, std::uint32_t group, double top_speed) {
+ObjectId MovingObjects::add(const Aabb& box, std::uint32_t group, const MotionPromise& promise) {
     auto number = static_cast<std::uint32_t>(slots_.size());
     if (!free_.empty()) {
         std::ranges::pop_heap(free_, std::greater());
@@ -71,16 +76,20 @@ ObjectId MovingObjects::add(const Aabb& box, std::uint32_t group, double top_spe
     } else {
         slots_.emplace_back();
         volumes_.emplace_back();
+        ranges_.emplace_back();
         groups_.emplace_back();
         alive_.resize((slots_.size() + 63) / 64);
     }
     Slot& slot = slots_[number];
     slot.period_s = settings_.first_period_s;
-    slot.top_speed = top_speed;
+    slot.top_speed = promise.top_speed;
     slot.expired = false;
+    slot.waits = slot.failures = 0;
+    ranges_[number] = promise.range.is_empty() ? Aabb{} : grown(promise.range, 0.0);
     groups_[number] = group;
     alive_[number / 64] |= std::uint64_t{1} << (number % 64);
     new_.push_back(ObjectId{number});
+    if (!keeps_range(number, box)) break_promise();
     put(ObjectId{number}, box);
     return ObjectId{number};
 }
@@ -113,19 +122,35 @@ void MovingObjects::begin_frame(double time_s) {
     });
 }
 
+void MovingObjects::break_promise() {
+    const bool promise_was_kept = false;
+    RHVIEW_ASSERT(promise_was_kept);
+    ++broken_promises_;
+}
+
+/// Whether the object is where it promised to be; else it has promised no range from now on.
+bool MovingObjects::keeps_range(std::size_t object, const Aabb& box) {
+    Aabb& range = ranges_[object];
+    const bool kept = range.is_empty() || holds(range, box);
+    if (!kept) range = {};
+    return kept;
+}
+
 void MovingObjects::move(ObjectId object, const Aabb& box) {
     const Slot& slot = slots_[index_of(object)];
     RHVIEW_ASSERT(is_alive(index_of(object)));
-    const bool promised = std::isfinite(slot.top_speed);
-    const bool kept = !promised || holds(grown(slot.told, slot.top_speed * (time_s_ - slot.told_s)), box);
-    RHVIEW_ASSERT(kept);
-    if (kept) return put(object, box);
-    ++broken_promises_;
-    teleport(object, box);
+    const bool fast = std::isfinite(slot.top_speed) &&
+                      !holds(grown(slot.told, slot.top_speed * (time_s_ - slot.told_s)), box);
+    const bool strayed = !keeps_range(index_of(object), box);
+    if (!fast && !strayed) return put(object, box);
+    break_promise();
+    new_.push_back(object);
+    put(object, box);
 }
 
 void MovingObjects::teleport(ObjectId object, const Aabb& box) {
     RHVIEW_ASSERT(is_alive(index_of(object)));
+    if (!keeps_range(index_of(object), box)) break_promise();
     new_.push_back(object);
     put(object, box);
 }
@@ -137,14 +162,30 @@ void MovingObjects::describe(FrameInput& input) const {
     input.new_objects = new_;
 }
 
+/// What holds the object until then.
+Aabb MovingObjects::volume_until(std::uint32_t object, double until_s) const {
+    const Slot& slot = slots_[object];
+    const Aabb reach = grown(slot.told, slot.top_speed * (until_s - slot.told_s));
+    const Aabb& range = ranges_[object];
+    if (range.is_empty()) return reach;
+    return {glm::max(reach.min, range.min), glm::min(reach.max, range.max)};
+}
+
 void MovingObjects::put_to_sleep(std::uint32_t object) {
     Slot& slot = slots_[object];
+    slot.in_range = slot.expired && slot.waits == 0 && !ranges_[object].is_empty();
     if (slot.expired) slot.period_s = std::min(kLonger * slot.period_s, settings_.greatest_period_s);
+    if (slot.expired && slot.waits > 0) --slot.waits;
     slot.expired = false;
     slot.asleep = true;
     slot.listed = false;
+    if (slot.in_range) {
+        slot.until_s = std::numeric_limits<double>::infinity();
+        volumes_[object] = ranges_[object];
+        return;
+    }
     slot.until_s = time_s_ + slot.period_s * spread(object);
-    volumes_[object] = grown(slot.told, slot.top_speed * (slot.until_s - slot.told_s));
+    volumes_[object] = volume_until(object, slot.until_s);
     expiries_.push_back({slot.until_s, object});
     std::ranges::push_heap(expiries_, later);
 }
@@ -156,7 +197,12 @@ void MovingObjects::see(const FramePlan& plan) {
         seen_[i / 64] |= std::uint64_t{1} << (i % 64);
         Slot& slot = slots_[i];
         if (!slot.asleep) continue;
-        slot.period_s = std::max(kShorter * slot.period_s, settings_.least_period_s);
+        if (slot.in_range) {
+            slot.waits = static_cast<std::uint8_t>(1u << slot.failures);
+            slot.failures = std::min<std::uint8_t>(slot.failures + 1, kMostFailures);
+        } else {
+            slot.period_s = std::max(kShorter * slot.period_s, settings_.least_period_s);
+        }
         wake(static_cast<std::uint32_t>(i));
     }
 }

@@ -16,8 +16,11 @@ namespace rhview {
 ObjectLevels::ObjectLevels(std::span<const LodChain> chains, std::span<const LevelledObject> objects)
     : chains_(chains), objects_(objects.begin(), objects.end()), selector_(chains) {
     for (const LodChain& chain : chains) RHVIEW_ASSERT(chain.levels.size() <= 255);
-    for (const LevelledObject& object : objects_)
-        RHVIEW_ASSERT(object.chain == LevelledObject::kNoChain || object.chain < chains.size());
+    for (LevelledObject& object : objects_) {
+        if (object.chain == LevelledObject::kNoChain) continue;
+        RHVIEW_ASSERT(object.chain < chains.size());
+        if (chains[object.chain].levels.size() < 2) object.chain = LevelledObject::kNoChain;
+    }
 }
 
 void ObjectLevels::set_object(ObjectId object, const LevelledObject& levelled) {
@@ -30,9 +33,7 @@ void ObjectLevels::set_object(ObjectId object, const LevelledObject& levelled) {
 const LevelledObject* ObjectLevels::find(ObjectId object) const {
     if (index_of(object) >= objects_.size()) return nullptr;
     const LevelledObject& levelled = objects_[index_of(object)];
-    const bool several =
-        levelled.chain != LevelledObject::kNoChain && chains_[levelled.chain].levels.size() > 1;
-    return several ? &levelled : nullptr;
+    return levelled.chain != LevelledObject::kNoChain ? &levelled : nullptr;
 }
 
 std::uint32_t ObjectLevels::indices(ObjectId object, std::uint32_t whole) const {
@@ -60,10 +61,14 @@ void ObjectLevels::begin(const FrameInput& input) {
     given_levels_.clear();
     levels_.resize(input.object_boxes.size(), 0);
     errors_px_.resize(input.object_boxes.size(), 0.0f);
-    for (const ObjectId object : input.new_objects) selector_.forget(static_cast<std::uint32_t>(object));
+    for (const ObjectId object : input.new_objects) {
+        selector_.forget(static_cast<std::uint32_t>(object));
+        fragments_.forget(object);
+    }
 }
 
-void ObjectLevels::add(const FrameInput& input, const Lens& lens, ObjectId object) {
+void ObjectLevels::add(const FrameInput& input, const Lens& lens, const LevelOptions& options,
+                       ObjectId object) {
     const LevelledObject* levelled = find(object);
     if (levelled == nullptr) return;
     LodObject& asked = asked_.emplace_back();
@@ -71,10 +76,13 @@ void ObjectLevels::add(const FrameInput& input, const Lens& lens, ObjectId objec
     asked.chain = levelled->chain;
     asked.pixels_per_unit =
         levelled->scale * pixels_per_scene_unit(lens, input.object_boxes[index_of(object)], asked.size_px);
+    if (options.policy == LodPolicy::Fragments) asked.fragments = fragments_.of(object);
 }
 
 void ObjectLevels::select(const LevelOptions& options) {
+    selection_options_.policy = options.policy;
     selection_options_.max_error_px = options.max_error_px;
+    selection_options_.triangles_per_fragment = options.triangles_per_fragment;
     selection_options_.budget_ns = options.budget_ns;
     selection_options_.costs = options.costs;
     selector_.select(asked_, selection_options_, selection_);
@@ -95,7 +103,7 @@ LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& o
     append_visible_objects(make_frustum(input.culling_view, input.scene_origin), input.object_boxes, in_view_,
                            input.object_alive);
     asked_.clear();
-    for (const ObjectId object : in_view_) add(input, lens, object);
+    for (const ObjectId object : in_view_) add(input, lens, options, object);
     select(options);
     return {selection_.max_error_px, selection_.cost_ns, selection_.indices, selection_.bound_met,
             selection_.budget_met};
@@ -105,17 +113,18 @@ LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& o
     begin(input);
     const Lens lens = lens_of(input);
     asked_.clear();
-    for (const ObjectId object : plan.objects) add(input, lens, object);
+    for (const ObjectId object : plan.objects) add(input, lens, options, object);
     select(options);
     const LevelSummary summary{selection_.max_error_px, selection_.cost_ns, selection_.indices,
                                selection_.bound_met, selection_.budget_met};
     LevelOptions hidden = options;
     hidden.budget_ns = std::numeric_limits<double>::infinity();
-    if (std::isfinite(summary.max_error_px))
+    if (std::isfinite(options.budget_ns) && std::isfinite(summary.max_error_px))
         hidden.max_error_px = std::max(options.max_error_px, summary.max_error_px);
     asked_.clear();
-    for (const ConditionalObject& object : plan.conditional_objects) add(input, lens, object.object);
+    for (const ConditionalObject& object : plan.conditional_objects) add(input, lens, hidden, object.object);
     select(hidden);
+    if (options.policy == LodPolicy::Fragments) fragments_.expect(plan);
     plan.object_levels.clear();
     if (given_levels_.empty()) return summary;
     for (const ObjectId object : plan.objects) plan.object_levels.push_back(levels_[index_of(object)]);

@@ -10,8 +10,6 @@
 namespace rhview {
 namespace {
 
-/// Fewer objects, and regions are not worth their upkeep.
-constexpr std::size_t kFewObjects = 128;
 /// Objects of a leaf: as many as are worth about this many questions, within limits.
 constexpr double kLeafQuestions = 16.0;
 constexpr double kMostPerLeaf = 64.0, kLeastPerLeaf = 4.0;
@@ -131,7 +129,7 @@ NodeVisibility::Parts NodeVisibility::visit_members(const FrameInput& input, std
 bool NodeVisibility::update_regions(const FrameInput& input) {
     regions_remade_ = false;
     const std::size_t count = input.object_boxes.size();
-    if (options_.settings.policy != OcclusionPolicy::Model || count < kFewObjects ||
+    if (options_.settings.policy != OcclusionPolicy::Model || count < options_.fewest_for_regions ||
         options_.object_indices.size() < count || !(mean_object_ns_ > 0.0))
         return false;
     const double worth = kLeafQuestions * query_ns_ / mean_object_ns_;
@@ -177,10 +175,16 @@ void NodeVisibility::write_objects(const FrameInput& input, FramePlan& plan) {
                 plan.objects.push_back(object);
         };
         const std::uint32_t region = region_of_candidate_[c - leaf_of_candidate_.size()];
-        if (region != kNoRegion)
+        if (region != kNoRegion) {
             regions_.for_each_in_view(region, *frustum_, input.object_alive, words_, write);
-        else
-            write(ObjectId{(candidates_[c].item - first_object_item()) / 2});
+            continue;
+        }
+        const ObjectId object{(candidates_[c].item - first_object_item()) / 2};
+        write(object);
+        if (decision.query == OcclusionDecision::kNoQuery) continue;
+        const ScheduledQuery& query = decided_.queries[decision.query];
+        if (query.counts_samples && query.member_count == 1)
+            plan.counted_objects.push_back({object, decision.query});
     }
 }
 

@@ -32,6 +32,11 @@ void RhviewPlanner::plan(const FrameInput& input, FramePlan& plan) {
     plan.opaque.assign(list_.ranges.begin(), list_.ranges.end());
     order_.sort(glm::vec3(frustum.eye), costs_.call_ns > 0.0, plan.opaque);
     if (visibility_) visibility_->append_conditional(list_.alternatives, plan);
+#ifdef RHVIEW_DISHONEST_ANSWERS
+    // For the tests that show that the checks can fail: what hangs on a query hangs on the next one.
+    for (ConditionalRange& conditional : plan.conditional)
+        conditional.query = (conditional.query + 1) % static_cast<std::uint32_t>(plan.queries.size());
+#endif
     sorter_.sort(input.object_groups, plan);
     plan.predicted_ns = list_.predicted_ns + (plan.occlusion ? plan.occlusion->query_ns : 0.0);
     plan.nodes_visited = list_.nodes_visited + (visibility_ ? visibility_->nodes_visited() : 0);

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
 
 #include "rhview/base/assert.h"
+#include "rhview/base/prefetch.h"
 #include "shapes.h"
 
 namespace rhview {
@@ -18,20 +20,31 @@ namespace {
 
 /// The speeds of the segments are rounded up by this.
 constexpr double kRoundingUp = 1.0 + 1e-9;
+/// Of the largest coordinate: more than rounding to float and a placement's arithmetic take.
+constexpr double kBoxRounding = 1e-6;
 
 struct Pose {
     glm::dvec3 offset{0.0};
     double turns = 0.0;
 };
 
-Pose pose_at(const ObjectMotion& motion, double time_s) {
-    const double period = motion.keys.back().time_s;
-    double time = std::fmod(time_s, period);
-    if (time < 0.0) time += period;
+double time_within(double period_s, double time_s) {
+    const double time = std::fmod(time_s, period_s);
+    return time < 0.0 ? time + period_s : time;
+}
+
+/// The first key after a time of the way; null at its very end.
+const MotionKey* key_after(const ObjectMotion& motion, double time) {
     const auto next =
         std::upper_bound(motion.keys.begin(), motion.keys.end(), time,
                          [](double wanted, const MotionKey& key) { return wanted < key.time_s; });
-    if (next == motion.keys.end()) return {};
+    return next == motion.keys.end() ? nullptr : &*next;
+}
+
+Pose pose_at(const ObjectMotion& motion, double time_s) {
+    const double time = time_within(motion.keys.back().time_s, time_s);
+    const MotionKey* next = key_after(motion, time);
+    if (next == nullptr) return {};
     const MotionKey& a = *(next - 1);
     const MotionKey& b = *next;
     const double t = (time - a.time_s) / (b.time_s - a.time_s);
@@ -44,9 +57,9 @@ const DynamicObject* moving_object(const Scene& scene, ObjectId object) {
     return dynamic.motion == DynamicObject::kStill ? nullptr : &dynamic;
 }
 
-glm::dmat4 moved(const glm::dmat4& start, const Pose& pose) {
+glm::dmat4 moved(const glm::dmat4x3& start, const Pose& pose) {
     const CosSin turn = cos_sin_of_turns(pose.turns);
-    glm::dmat4 placement = start;
+    glm::dmat4 placement(start);
     for (int column = 0; column < 3; ++column) {
         const glm::dvec3 axis(start[column]);
         placement[column].x = turn.cos * axis.x + turn.sin * axis.z;
@@ -74,7 +87,7 @@ double reach_of(const Scene& scene, const DynamicObject& object) {
 glm::dmat4 placement_at(const Scene& scene, ObjectId object, double time_s) {
     const DynamicObject* moving = moving_object(scene, object);
     if (moving == nullptr) return scene.object_placement(object);
-    return moved(moving->scene_from_mesh, pose_at(scene.motions[moving->motion], time_s));
+    return moved(glm::dmat4x3(moving->scene_from_mesh), pose_at(scene.motions[moving->motion], time_s));
 }
 
 double top_speed(const Scene& scene, ObjectId object) {
@@ -91,6 +104,67 @@ double top_speed(const Scene& scene, ObjectId object) {
     return speed * kRoundingUp;
 }
 
+Aabb motion_range(const Scene& scene, ObjectId object) {
+    const Aabb& bounds = scene.meshes[index_of(scene.object_mesh(object))].bounds;
+    const Aabb start = transform_box(scene.object_placement(object), bounds);
+    const DynamicObject* moving = moving_object(scene, object);
+    if (moving == nullptr) return start;
+    const glm::dvec3 centre(moving->scene_from_mesh[3]);
+    const double reach = reach_of(scene, *moving) * kRoundingUp;
+    glm::dvec3 low(start.min), high(start.max);
+    const auto grow = [&](const glm::dvec3& offset) {
+        low = glm::min(low, glm::dvec3(start.min) + offset);
+        high = glm::max(high, glm::dvec3(start.max) + offset);
+        // It turns about the vertical through its origin.
+        for (const int axis : {0, 2}) {
+            low[axis] = std::min(low[axis], centre[axis] + offset[axis] - reach);
+            high[axis] = std::max(high[axis], centre[axis] + offset[axis] + reach);
+        }
+    };
+    for (const MotionKey& key : scene.motions[moving->motion].keys) grow(key.offset);
+    const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
+    const double margin = kBoxRounding * std::max({farthest.x, farthest.y, farthest.z});
+    return {glm::vec3(low - margin), glm::vec3(high + margin)};
+}
+
+ObjectWays::ObjectWays(const Scene& scene) : scene_(scene) {
+    parts_.resize(scene.dynamic_objects.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const DynamicObject& object = scene.dynamic_objects[i];
+        parts_[i].start = glm::dmat4x3(object.scene_from_mesh);
+        parts_[i].motion = object.motion;
+        if (object.motion != DynamicObject::kStill)
+            parts_[i].period_s = scene.motions[object.motion].keys.back().time_s;
+    }
+}
+
+/// At the very end of its way an object is where it starts.
+void ObjectWays::find_part(Part& part, double time) const {
+    const MotionKey* next = key_after(scene_.motions[part.motion], time);
+    const MotionKey& b = next == nullptr ? scene_.motions[part.motion].keys.front() : *next;
+    const MotionKey& a = next == nullptr ? b : *(next - 1);
+    part.from_s = next == nullptr ? time : a.time_s;
+    part.to_s = next == nullptr ? time + 1.0 : b.time_s;
+    part.offset = a.offset;
+    part.step = b.offset - a.offset;
+    part.turns = a.turns;
+    part.turns_step = b.turns - a.turns;
+}
+
+glm::dmat4 ObjectWays::placement_at(ObjectId object, double time_s) {
+    if (index_of(object) >= parts_.size()) return scene_.object_placement(object);
+    Part& part = parts_[index_of(object)];
+    if (part.motion == DynamicObject::kStill) return glm::dmat4(part.start);
+    const double time = time_within(part.period_s, time_s);
+    if (!(time >= part.from_s && time < part.to_s)) find_part(part, time);
+    const double t = (time - part.from_s) / (part.to_s - part.from_s);
+    return moved(part.start, {part.offset + t * part.step, part.turns + t * part.turns_step});
+}
+
+void ObjectWays::prefetch(ObjectId object) const {
+    if (index_of(object) < parts_.size()) rhview::prefetch(&parts_[index_of(object)]);
+}
+
 void place_objects(const Scene& scene, double time_s, ObjectPlacements& placements) {
     if (placements.boxes.size() != scene.object_count()) {
         placements.boxes = scene.object_boxes();
@@ -102,7 +176,7 @@ void place_objects(const Scene& scene, double time_s, ObjectPlacements& placemen
         const DynamicObject& object = scene.dynamic_objects[i];
         if (object.motion == DynamicObject::kStill) continue;
         const glm::dmat4 placement =
-            moved(object.scene_from_mesh, pose_at(scene.motions[object.motion], time_s));
+            moved(glm::dmat4x3(object.scene_from_mesh), pose_at(scene.motions[object.motion], time_s));
         placements.scene_from_mesh[i] = placement;
         placements.boxes[i] = transform_box(placement, scene.meshes[index_of(object.mesh)].bounds);
     }

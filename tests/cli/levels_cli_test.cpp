@@ -62,6 +62,18 @@ TEST_F(Levels, of_moving_objects_behind_walls_stay_exact) {
     }
 }
 
+TEST_F(Levels, a_mesh_at_a_level_takes_one_draw_call) {
+    const nlohmann::json walk = walk_json(
+        "farm:instances=300,mesh=3000 --frames 40 --rate 60 --excerpts 4 --size 240x136 --lod-error 1 " +
+        kCosts);
+    for (const nlohmann::json& frame : walk["per_frame"])
+        EXPECT_EQ(frame["object_draw_calls"], frame["visible_mesh_levels"]) << frame["frame"];
+    const double most_objects = walk["summary"]["visible_objects"]["max"];
+    EXPECT_GT(most_objects, 50);
+    EXPECT_GE(walk["summary"]["object_draw_calls"]["max"], 2);
+    EXPECT_LT(walk["summary"]["object_draw_calls"]["max"], 0.3 * most_objects);
+}
+
 TEST_F(Levels, the_visible_set_is_that_of_what_is_drawn) {
     const nlohmann::json walk = walk_json(kFarm + kCosts + "--visible-set --method octree --lod-error 4");
     EXPECT_GT(walk["summary"]["visible_set_indices"]["mean"], 0.0);
@@ -102,6 +114,28 @@ TEST_F(Levels, a_budget_is_judged_frame_by_frame) {
     }
 }
 
+TEST_F(Levels, fragments_that_queries_counted_make_them_coarser_and_nothing_is_missed) {
+    const std::string options = "--lod-error 0.1 --occlusion hardware --check --set c1=4,c3=200,query=300 ";
+    const std::string farm =
+        "farm:instances=30,mesh=30000 --frames 45 --rate 30 --excerpts 3 --warmup 1 --size 240x136 ";
+    const nlohmann::json by_error = walk_json(farm + options);
+    const nlohmann::json by_fragments = walk_json(farm + options + "--lod-policy fragments");
+    EXPECT_EQ(by_error["lod"]["policy"], "error");
+    EXPECT_EQ(by_fragments["lod"]["policy"], "fragments");
+    EXPECT_LE(by_error["summary"]["lod_error_px"]["max"], 0.1);
+    EXPECT_GT(by_fragments["summary"]["lod_error_px"]["max"], 0.1);
+    EXPECT_LT(by_fragments["summary"]["indices"]["mean"],
+              0.9 * by_error["summary"]["indices"]["mean"].get<double>());
+    EXPECT_EQ(by_fragments["summary"]["missing_pixels"]["total"], 0);
+}
+
+TEST_F(Levels, a_budget_without_a_number_is_that_of_sixty_frames_a_second) {
+    const std::string options = "--frames 2 --warmup 0 --size 64x36 " + kCosts;
+    const nlohmann::json walk = walk_json("farm:instances=10,mesh=3000 " + options + "--budget");
+    EXPECT_EQ(walk["lod"]["budget_ms"], 16.6);
+    EXPECT_TRUE(walk_json("farm:instances=10,mesh=3000 " + options)["lod"]["budget_ms"].is_null());
+}
+
 TEST_F(Levels, a_comparison_names_a_bound_for_each_method) {
     const Outcome outcome =
         run("compare farm:instances=30,mesh=6000 --methods rhview:lod-error=0,rhview:lod-error=4 --frames 4 "
@@ -121,11 +155,12 @@ TEST_F(Levels, a_comparison_names_a_bound_for_each_method) {
 TEST_F(Levels, what_makes_no_sense_is_refused_in_a_sentence) {
     for (const std::string arguments :
          {"walk farm --lod-error -1", "walk farm --budget 0", "walk farm --budget 5 --method chc",
-          "walk farm --lod-error x", "compare farm --methods rhview:lod-error=x"}) {
+          "walk farm --lod-error x", "compare farm --methods rhview:lod-error=x", "walk farm --lod-policy x",
+          "walk farm --lod-policy fragments --occlusion off"}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.code, 2) << arguments;
         EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-        const bool names_it = outcome.err.find("lod-error") != std::string::npos ||
+        const bool names_it = outcome.err.find("lod-") != std::string::npos ||
                               outcome.err.find("--budget") != std::string::npos;
         EXPECT_TRUE(names_it) << outcome.err;
     }

@@ -65,7 +65,7 @@ class ProgramTest : public testing::Test {
     Outcome run(const std::string& arguments, const std::string& environment = "") {
         const std::filesystem::path out = folder_ / ".out", err = folder_ / ".err";
         const std::string command = "cd '" + folder_.string() + "' && XDG_CACHE_HOME='" + cache_.string() +
-                                    "' " + environment + " '" RHVIEW_PROGRAM "' " + arguments + " >'" +
+                                    "' " + environment + " '" + program_ + "' " + arguments + " >'" +
                                     out.string() + "' 2>'" + err.string() + "' </dev/null";
         const int status = std::system(command.c_str());
         Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
@@ -84,6 +84,7 @@ class ProgramTest : public testing::Test {
         return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
     }
 
+    std::string program_ = RHVIEW_PROGRAM;
     std::filesystem::path folder_;
     std::filesystem::path cache_;  ///< where saved profiles go
 };

@@ -138,6 +138,40 @@ TEST(MovingObjects, without_a_promise_an_object_never_sleeps) {
     }
 }
 
+TEST(MovingObjects, one_that_never_leaves_a_hidden_range_is_not_touched_again) {
+    MovingObjects objects;
+    const Aabb range = box_at({0, 0, 0}, 5.0);
+    const ObjectId object = objects.add(kUnitBox, 0, MotionPromise{1.0, range});
+    int told = 0;
+    for (int frame = 0; frame < 6000; ++frame) {
+        objects.begin_frame(frame / 60.0);
+        for (const ObjectId due : objects.due()) objects.move(due, kUnitBox), ++told;
+        objects.end_frame({});
+        const Aabb volume = volume_of(objects, object);
+        ASSERT_LE(volume.extent().x, range.extent().x + 1e-4f) << "no volume is larger than the range";
+    }
+    EXPECT_EQ(told, 2) << "when it is new, and once when its first volume expires";
+    EXPECT_TRUE(glm::all(glm::lessThanEqual(volume_of(objects, object).min, range.min)));
+}
+
+TEST(MovingObjects, a_range_that_is_seen_is_tried_more_and_more_rarely) {
+    MovingObjects objects;
+    const Aabb range = box_at({0, 0, 0}, 5.0);
+    const ObjectId object = objects.add(kUnitBox, 0, MotionPromise{1.0, range});
+    std::vector<int> seen;
+    for (int frame = 0; frame < 60 * 60; ++frame) {
+        objects.begin_frame(frame / 60.0);
+        for (const ObjectId due : objects.due()) objects.move(due, kUnitBox);
+        // All beyond x = 4 can be seen.
+        const bool drawn = volume_of(objects, object).max.x > 4.0f;
+        if (drawn) seen.push_back(frame);
+        objects.end_frame(drawn ? plan_of({0}) : plan_of({}));
+    }
+    ASSERT_GE(seen.size(), 4u);
+    EXPECT_LE(seen.size(), 8u);
+    for (std::size_t i = 2; i < seen.size(); ++i) EXPECT_GT(seen[i] - seen[i - 1], seen[i - 1] - seen[i - 2]);
+}
+
 int asserts = 0;
 void count_assert(const char*, const char*, int) {
     ++asserts;
@@ -164,6 +198,29 @@ TEST(MovingObjects, a_broken_promise_is_asserted_and_the_object_is_new_again) {
     EXPECT_EQ(input.object_boxes[0], box_at({11.0, 0, 0}));
 }
 
+TEST(MovingObjects, one_that_leaves_its_range_is_asserted_and_has_none_from_then_on) {
+    const AssertHandler before = set_assert_handler(count_assert);
+    asserts = 0;
+    MovingObjects objects;
+    const ObjectId object = objects.add(kUnitBox, 0, MotionPromise{100.0, box_at({0, 0, 0}, 2.0)});
+    objects.begin_frame(0.0);
+    objects.end_frame({});
+    objects.begin_frame(1.0);
+    objects.move(object, box_at({5.0, 0, 0}));
+    EXPECT_EQ(objects.broken_promises(), 1u);
+    for (int frame = 0; frame < 200; ++frame) {
+        objects.begin_frame(1.0 + frame / 60.0);
+        for (const ObjectId due : objects.due()) objects.move(due, box_at({5.0, 0, 0}));
+        objects.end_frame({});
+        EXPECT_GE(volume_of(objects, object).max.x, 5.5f);
+    }
+    set_assert_handler(before);
+    EXPECT_EQ(objects.broken_promises(), 1u);
+#if RHVIEW_ENABLE_ASSERTS
+    EXPECT_EQ(asserts, 1);
+#endif
+}
+
 /// Objects of a world in which all beyond x = 20 is hidden, as they are and as the application tells them.
 class RandomWorld {
   public:
@@ -188,12 +245,12 @@ class RandomWorld {
             objects_.remove(object->first);
             alive_.erase(object);
         } else if (what < 0.22) {
-            object->second.centre = random_.point(60.0);
+            object->second.centre = object->second.kept_in(random_.point(60.0));
             objects_.teleport(object->first, box_at(object->second.centre));
         } else {
             // Nobody is told, unless it is due.
             const glm::dvec3 step = random_.point(object->second.left / std::sqrt(3.0));
-            object->second.centre += step;
+            object->second.centre = object->second.kept_in(object->second.centre + step);
             object->second.left = 0.0;
         }
     }
@@ -233,14 +290,25 @@ class RandomWorld {
     struct State {
         glm::dvec3 centre{0.0};
         double left = 0.0;  ///< how far it may still go
+        glm::dvec3 low{-60.0}, high{60.0};
+
+        [[nodiscard]] glm::dvec3 kept_in(const glm::dvec3& place) const {
+            return glm::clamp(place, low, high);
+        }
     };
 
     void add() {
         const glm::dvec3 centre = random_.point(60.0);
+        const auto group = static_cast<std::uint32_t>(random_(0, 6));
+        // Every other one has a range that it never leaves.
+        const bool ranged = random_(0, 1) < 0.5;
+        State state{centre, 0.0};
+        if (ranged) state.low = centre - 4.0, state.high = centre + 4.0;
         const ObjectId object =
-            objects_.add(box_at(centre), static_cast<std::uint32_t>(random_(0, 6)), kSpeed);
+            ranged ? objects_.add(box_at(centre), group, MotionPromise{kSpeed, box_at(centre, 4.5)})
+                   : objects_.add(box_at(centre), group, kSpeed);
         ASSERT_FALSE(alive_.contains(object));
-        alive_[object] = {centre, 0.0};
+        alive_[object] = state;
     }
 
     /// All that may be seen is drawn exactly once, and what hangs on a query is in its boxes.

@@ -65,6 +65,25 @@ TEST(ObjectMotion, ways_pass_their_keys_and_repeat) {
         }
 }
 
+TEST(ObjectMotion, ways_that_remember_where_they_are_place_to_the_last_bit) {
+    Uniform random(8);
+    std::vector<Scene> scenes{two_objects()};
+    for (const char* spec : {"crowd:objects=100", "farm:mesh=1000,instances=20"})
+        scenes.push_back(make_named_scene(spec)->scene);
+    for (const Scene& scene : scenes) {
+        ObjectWays ways(scene);
+        double time = -20.0;
+        for (int i = 0; i < 20'000; ++i) {
+            // Mostly a little later, at times anywhere, and at the keys themselves.
+            time = i % 50 == 0 ? random(-100, 1000) : time + random(0, 0.002);
+            const ObjectId object{
+                static_cast<std::uint32_t>(random(0, static_cast<double>(scene.object_count())))};
+            const double asked = i % 7 == 0 ? std::round(time) : time;
+            ASSERT_EQ(ways.placement_at(object, asked), placement_at(scene, object, asked)) << asked;
+        }
+    }
+}
+
 TEST(ObjectMotion, nothing_moves_faster_than_its_top_speed) {
     Uniform random(5);
     std::vector<Scene> scenes{two_objects()};
@@ -87,6 +106,29 @@ TEST(ObjectMotion, nothing_moves_faster_than_its_top_speed) {
             if (allowed > 0.0) closest = std::max(closest, glm::distance(before, after) / allowed);
         }
         EXPECT_GT(closest, 0.5) << "the bound says little";
+    }
+}
+
+TEST(ObjectMotion, nothing_leaves_its_range_and_the_range_is_no_larger_than_its_way) {
+    std::vector<Scene> scenes{two_objects()};
+    for (const char* spec : {"farm:mesh=1000,instances=30", "crowd:objects=60", "swarm:objects=40"})
+        scenes.push_back(make_named_scene(spec)->scene);
+    for (const Scene& scene : scenes) {
+        std::vector<Aabb> seen(scene.object_count());
+        ObjectPlacements placements;
+        for (double time = 0.0; time < 200.0; time += 0.7) {
+            place_objects(scene, time, placements);
+            for (std::uint32_t i = 0; i < seen.size(); ++i) seen[i].grow(placements.boxes[i]);
+        }
+        for (std::uint32_t i = 0; i < seen.size(); ++i) {
+            const Aabb range = motion_range(scene, ObjectId{i});
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(range.min, seen[i].min)) &&
+                        glm::all(glm::lessThanEqual(seen[i].max, range.max)))
+                << scene.name << i;
+            // What turns may turn farther than it was seen: by less than its own size.
+            EXPECT_LT(glm::length(range.extent()),
+                      glm::length(seen[i].extent()) + glm::length(scene.object_boxes()[i].extent()) + 0.1f);
+        }
     }
 }
 

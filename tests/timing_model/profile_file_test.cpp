@@ -221,10 +221,10 @@ TEST_F(ProfileFile, a_failed_save_leaves_the_old_file_and_nothing_else) {
     expect_equal(full_profile(3), *load_profile(file));
 
     fs::create_directories(folder_ / "taken" / "inside");
-    EXPECT_NE(save_profile(full_profile(3), folder_ / "taken").error().message.find("cannot be replaced"),
+    EXPECT_NE(save_profile(full_profile(3), folder_ / "taken").error().message.find("is a folder"),
               std::string::npos);
     EXPECT_NE(
-        save_profile(full_profile(3), folder_ / "none" / "p.json").error().message.find("cannot be written"),
+        save_profile(full_profile(3), folder_ / "none" / "p.json").error().message.find("can't be written"),
         std::string::npos);
     EXPECT_EQ(files(), 2) << "the profile and the folder, nothing half-written";
 }

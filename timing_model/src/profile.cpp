@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "profile_fields.h"
+#include "rhview/base/replacement_file.h"
 
 namespace rhview {
 namespace {
@@ -27,11 +28,6 @@ Status check_constant(const std::string& field, double value) {
 Status check_finite(const std::string& field, const std::optional<double>& value) {
     if (!value || std::isfinite(*value)) return success();
     return Error{field + " is not finite; calibrate again"};
-}
-
-void remove_quietly(const std::filesystem::path& file) {
-    std::error_code ignored;
-    std::filesystem::remove(file, ignored);
 }
 
 }  // namespace
@@ -177,24 +173,10 @@ Result<TimingProfile> load_profile(const std::filesystem::path& file) {
 Status save_profile(const TimingProfile& profile, const std::filesystem::path& file) {
     const std::string name = file.string();
     if (const Status status = validate(profile); !status) return Error{name + ": " + status.error().message};
-    std::filesystem::path part = file;
-    part += ".part";
-    std::ofstream stream(part, std::ios::binary | std::ios::trunc);
-    if (!stream)
-        return Error{name + ": cannot be written; check that the folder exists and may be written to"};
-    stream << profile_text(profile);
-    stream.close();
-    if (!stream) {
-        remove_quietly(part);
-        return Error{name + ": cannot be written to its end; make room on the disk"};
-    }
-    std::error_code problem;
-    std::filesystem::rename(part, file, problem);
-    if (problem) {
-        remove_quietly(part);
-        return Error{name + ": cannot be replaced (" + problem.message() + "); name another file"};
-    }
-    return success();
+    Result<ReplacementFile> replacement = ReplacementFile::create(file);
+    if (!replacement) return replacement.error();
+    replacement->write(profile_text(profile));
+    return replacement->commit();
 }
 
 }  // namespace rhview

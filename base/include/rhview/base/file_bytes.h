@@ -22,7 +22,7 @@ class FileBytes {
     /// costs nothing until its pages are touched; else one pass over the file.
     static Result<std::shared_ptr<const FileBytes>> open(const std::filesystem::path& file);
 
-    /// A copy of `bytes`, aligned as promised.
+    /// A copy of `bytes`, aligned as promised; null where memory runs out.
     static std::shared_ptr<const FileBytes> copy_of(std::span<const std::byte> bytes);
 
     FileBytes(const FileBytes&) = delete;

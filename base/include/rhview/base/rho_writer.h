@@ -5,28 +5,23 @@
 /// Writes baked files (`.rho`), whole or not at all.
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "rhview/base/replacement_file.h"
 #include "rhview/base/result.h"
 #include "rhview/base/rho_file.h"
 
 namespace rhview {
 
-/// Writes beside the place meant (`FILE.part`), hands it to the disk, and renames it: whoever opens the file
-/// sees the old one or the new one, also after a crash. What was not finished is removed.
+/// A `ReplacementFile`: whoever opens the file sees the old one or the new one, also after a crash.
 class RhoWriter {
   public:
     /// Opens the temporary file, so that an unwritable place is told before any work is done. Links are
     /// followed to the file meant. Errors: no name, a folder, not a plain file, not writable.
     static Result<RhoWriter> create(const std::filesystem::path& file);
-
-    RhoWriter(RhoWriter&& other) noexcept;
-    RhoWriter& operator=(RhoWriter&&) = delete;
-    ~RhoWriter();
 
     /// A section of these pieces, one after the other. The pieces stay valid until `finish`; at most 64
     /// sections, each tag once.
@@ -51,16 +46,11 @@ class RhoWriter {
         std::uint32_t version;
         std::vector<std::span<const std::byte>> pieces;
     };
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
 
-    RhoWriter(std::filesystem::path file, std::filesystem::path temporary, std::FILE* stream);
+    explicit RhoWriter(ReplacementFile file) : file_(std::move(file)) {}
     bool write_sections(std::uint64_t& file_bytes);
 
-    std::filesystem::path file_;
-    std::filesystem::path temporary_;  ///< empty once it is gone
-    std::unique_ptr<std::FILE, Close> stream_;
+    ReplacementFile file_;
     std::vector<Section> sections_;
     std::vector<std::unique_ptr<std::vector<std::byte>>> owned_;
 };

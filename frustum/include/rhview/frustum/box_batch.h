@@ -32,7 +32,9 @@ struct BoxSpans {
 
     /// Boxes [first, first + length) of these.
     [[nodiscard]] BoxSpans subspan(std::size_t first, std::size_t length) const;
-    [[nodiscard]] Aabb operator[](std::size_t i) const;
+    [[nodiscard]] Aabb operator[](std::size_t i) const {
+        return {{min_x[i], min_y[i], min_z[i]}, {max_x[i], max_y[i], max_z[i]}};
+    }
 };
 
 /// Boxes as six arrays, its own.

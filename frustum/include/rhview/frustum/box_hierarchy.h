@@ -79,7 +79,8 @@ class BoxHierarchy {
   private:
     friend class HierarchyBuilder;
 
-    void refit_nodes();
+    void refit(std::span<const Aabb> boxes, bool all);
+    void refit_leaf(HierarchyNode& leaf, std::span<const Aabb> boxes, bool all);
 
     std::vector<HierarchyNode> nodes_;
     std::vector<ObjectId> order_;

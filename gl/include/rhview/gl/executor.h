@@ -26,9 +26,10 @@ namespace rhview::gl {
 struct FrameCounters {
     std::uint64_t draw_calls =
         0;  ///< N: calls issued, of draws at once; a multi-draw is one, an instanced too
-    std::uint64_t sub_draws = 0;  ///< index ranges submitted, of draws at once; once for all its instances
-    std::uint64_t indices = 0;    ///< V: three per triangle, of draws at once; times instances
-    std::uint64_t instances = 0;  ///< objects in those
+    std::uint64_t sub_draws = 0;     ///< index ranges submitted, of draws at once; once for all its instances
+    std::uint64_t indices = 0;       ///< V: three per triangle, of draws at once; times instances
+    std::uint64_t object_draws = 0;  ///< the part of `draw_calls` that drew objects
+    std::uint64_t instances = 0;     ///< objects in those
     std::uint64_t material_changes = 0;  ///< times that state was set: per batch and per run of objects
 
     std::uint64_t queries = 0;                ///< asked, either way

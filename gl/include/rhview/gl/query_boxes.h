@@ -32,6 +32,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -67,6 +68,8 @@ static_assert(sizeof(BoxInstance) == 32);
 /// By how much more the clip coordinates of an object's vertices err than those of static triangles: 1 for a
 /// translation, at most 3 for rotations and scales, more for shears.
 double rounding_growth(const glm::dmat4& scene_from_mesh);
+/// The same of its linear part, whose inverse is known.
+double rounding_growth(const glm::dmat3& linear, const glm::dmat3& inverse);
 
 /// Widens the boxes of one frame. Cost: about 60 ns a box.
 class BoxWidener {

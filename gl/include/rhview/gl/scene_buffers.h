@@ -38,13 +38,11 @@ struct MeshLevels {
     std::span<const LevelRange> levels;
 };
 
-struct ObjectInstance {
+/// What the objects of a mesh share.
+struct MeshState {
     DrawState state;
     std::uint32_t instanced_array = 0;  ///< the same vertices, and places of instances
-    std::uint32_t mesh = 0;
-    std::uint32_t first_index = 0;  ///< at full detail
-    std::uint32_t index_count = 0;
-    glm::dmat4 scene_from_mesh{1.0};  ///< at time 0
+    LevelRange whole;                   ///< full detail
 };
 
 class SceneBuffers {
@@ -57,10 +55,13 @@ class SceneBuffers {
 
     [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
     [[nodiscard]] std::span<const DrawState> batches() const { return batches_; }
-    /// By `ObjectId`, as `Scene` numbers them.
-    [[nodiscard]] std::span<const ObjectInstance> objects() const { return objects_; }
-    /// The indices of an object at a level of detail; the coarsest where there is no such level.
-    [[nodiscard]] LevelRange level_range(const ObjectInstance& object, std::uint32_t level) const;
+    [[nodiscard]] std::span<const MeshState> meshes() const { return meshes_; }
+    /// Meshes of the objects, by `ObjectId`, as `Scene` numbers them.
+    [[nodiscard]] std::span<const std::uint32_t> object_meshes() const { return object_meshes_; }
+    /// Where the objects are at time 0, by `ObjectId`.
+    [[nodiscard]] std::span<const glm::dmat4> placements() const { return placements_; }
+    /// The indices of a mesh at a level of detail; the coarsest where there is no such level.
+    [[nodiscard]] LevelRange level_range(std::uint32_t mesh, std::uint32_t level) const;
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   private:
@@ -77,7 +78,9 @@ class SceneBuffers {
     std::vector<LevelRange> levels_;             ///< of all meshes, coarser ones
     std::vector<std::uint32_t> first_level_;     ///< by mesh, into `levels_`; one more at the end
     std::vector<DrawState> batches_;
-    std::vector<ObjectInstance> objects_;
+    std::vector<MeshState> meshes_;
+    std::vector<std::uint32_t> object_meshes_;
+    std::vector<glm::dmat4> placements_;
     glm::dvec3 origin_{0.0};
     std::uint64_t bytes_ = 0;
 };

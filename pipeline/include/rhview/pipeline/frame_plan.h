@@ -45,6 +45,14 @@ struct ConditionalObject {
     friend bool operator==(const ConditionalObject&, const ConditionalObject&) = default;
 };
 
+/// A query that counts the samples of one object's box, and of nothing else.
+struct CountedObject {
+    ObjectId object{};
+    std::uint32_t query = 0;
+
+    friend bool operator==(const CountedObject&, const CountedObject&) = default;
+};
+
 /// What occlusion culling did with the frame, by its model.
 struct OcclusionSummary {
     std::uint64_t candidates = 0;  ///< nodes and objects in the frustum that were decided about
@@ -70,6 +78,7 @@ struct FramePlan {
     std::vector<PlannedQuery> queries;
     std::vector<ConditionalRange> conditional;           ///< by batch, then by place
     std::vector<ConditionalObject> conditional_objects;  ///< by group, level, query and id
+    std::vector<CountedObject> counted_objects;          ///< in no order: for `SeenFragments`
     /// What the planner chose, by its own ids (`FramePlanner::bounds_of`): for pictures and statistics.
     std::vector<std::uint32_t> chosen;
     std::uint64_t nodes_visited = 0;

@@ -8,7 +8,10 @@
 /// An object that promises a top speed and was not drawn at once falls asleep: its box, grown by how far it
 /// can get within a period, stands in for it. Asleep it costs what a box costs in `cull_boxes`, and nothing
 /// of it has to be computed unless a plan names it, which then needs its placement. The period adapts: longer
-/// when it expires unseen, shorter when its volume was seen before. Source: Sudarsky & Gotsman 1999, "Dynamic
+/// when it expires unseen, shorter when its volume was seen before. Where an object promises a range that it
+/// never leaves (a room, a court, a closed way), that is its volume, without end, once a first one expired
+/// unseen; if the range is seen it is tried again after one unseen expiry, then two, four… So what is hidden
+/// with its range is not touched at all, however many there are. Source: Sudarsky & Gotsman 1999, "Dynamic
 /// scene occlusion culling".
 ///
 /// A frame goes
@@ -17,6 +20,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,22 +38,32 @@ struct TemporalVolumeSettings {
     double greatest_period_s = 1.0;
 };
 
+/// What an application promises of an object.
+struct MotionPromise {
+    /// No point of what is drawn moves faster, in units per second; infinite or not a number: no promise, it
+    /// never sleeps.
+    double top_speed = std::numeric_limits<double>::infinity();
+    /// Nothing of what is drawn is ever outside, teleported or not; empty: no promise.
+    Aabb range{};
+};
+
 /// Deterministic; no allocation once the most objects have been there.
 class MovingObjects {
   public:
     explicit MovingObjects(const TemporalVolumeSettings& settings = {}) : settings_(settings) {}
 
-    /// The lowest number that is free. `group` as in `FrameInput::object_groups`. `top_speed`: no point of
-    /// what is drawn moves faster, in units per second; infinite or not a number: no promise, it never
-    /// sleeps.
-    ObjectId add(const Aabb& box, std::uint32_t group, double top_speed);
+    /// The lowest number that is free. `group` as in `FrameInput::object_groups`.
+    ObjectId add(const Aabb& box, std::uint32_t group, const MotionPromise& promise);
+    ObjectId add(const Aabb& box, std::uint32_t group, double top_speed) {
+        return add(box, group, MotionPromise{top_speed, {}});
+    }
     void remove(ObjectId object);
     /// Times never fall.
     void begin_frame(double time_s);
     /// The objects that must be moved now, each once: those awake, and those whose volumes expired.
     [[nodiscard]] std::span<const ObjectId> due() const { return awake_; }
     /// Where an object is now; wakes one that slept. If it broke its promise, that is asserted, counted, and
-    /// taken for a teleport.
+    /// taken for a teleport; a range that was left is a promise no more.
     void move(ObjectId object, const Aabb& box);
     /// Somewhere else at once: allowed, and what was known of the object is forgotten.
     void teleport(ObjectId object, const Aabb& box);
@@ -75,8 +89,11 @@ class MovingObjects {
         double period_s = 0.0;
         double top_speed = 0.0;
         bool asleep = false;
-        bool listed = false;   ///< in `awake_`
-        bool expired = false;  ///< its last volume did, unseen
+        bool listed = false;        ///< in `awake_`
+        bool expired = false;       ///< its last volume did, unseen
+        bool in_range = false;      ///< asleep without end, all of its range standing in for it
+        std::uint8_t waits = 0;     ///< unseen expiries to go before that is tried
+        std::uint8_t failures = 0;  ///< how often, in powers of two, the range was seen
     };
     struct Expiry {
         double until_s = 0.0;
@@ -88,6 +105,9 @@ class MovingObjects {
         return (alive_[object / 64] >> (object % 64) & 1) != 0;
     }
     void put(ObjectId object, const Aabb& box);
+    [[nodiscard]] bool keeps_range(std::size_t object, const Aabb& box);
+    void break_promise();
+    [[nodiscard]] Aabb volume_until(std::uint32_t object, double until_s) const;
     void wake(std::uint32_t object);
     void see(const FramePlan& plan);
     void put_to_sleep(std::uint32_t object);
@@ -96,6 +116,7 @@ class MovingObjects {
     double time_s_ = 0.0;
     std::vector<Slot> slots_;
     std::vector<Aabb> volumes_;  ///< by object: its box, or what stands in for it
+    std::vector<Aabb> ranges_;   ///< by object, rounded outwards; empty: none
     std::vector<std::uint32_t> groups_;
     std::vector<std::uint64_t> alive_;
     std::vector<std::uint64_t> seen_;    ///< scratch: a bit per object

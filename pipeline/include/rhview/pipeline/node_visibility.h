@@ -27,6 +27,10 @@ struct OcclusionOptions {
     /// The indices of a dynamic object, by `ObjectId`; an object beyond the end counts as none and is drawn
     /// at once. Read in every frame: the caller may change them with the objects' levels of detail.
     std::span<const std::uint32_t> object_indices{};
+    /// Fewer objects are asked about one by one, tested by a flat batch; as many or more by region, from a
+    /// hierarchy that follows them. Where one overtakes the other: `rhview_object_regions`,
+    /// docs/occlusion.md.
+    std::size_t fewest_for_regions = 16;
     /// Queries about objects say how many samples were seen: hardware queries only.
     bool counts_samples = false;
 };

@@ -25,6 +25,7 @@
 #include "rhview/lod/lod_selection.h"
 #include "rhview/pipeline/frame_plan.h"
 #include "rhview/pipeline/frame_planner.h"
+#include "rhview/pipeline/seen_fragments.h"
 
 namespace rhview {
 
@@ -38,6 +39,10 @@ struct LevelledObject {
 
 struct LevelOptions {
     double max_error_px = 1.0;  ///< 0: full detail, unless the budget forbids it
+    /// `Fragments`: by what the answers that were absorbed count; `OcclusionOptions::counts_samples` asks for
+    /// them.
+    LodPolicy policy = LodPolicy::ErrorBound;
+    double triangles_per_fragment = 1.0;
     /// What the objects that a plan draws at once may cost together. What hangs on queries does not count; it
     /// is drawn no finer than them.
     double budget_ns = std::numeric_limits<double>::infinity();
@@ -64,6 +69,9 @@ class ObjectLevels {
     /// Another object has the number now; its chain is one of the chains. What its number was drawn at is
     /// forgotten where `FrameInput::new_objects` says so. Allocates for numbers beyond all before.
     void set_object(ObjectId object, const LevelledObject& levelled);
+
+    /// Answers to the queries of earlier plans, for `LodPolicy::Fragments`.
+    void absorb(std::span<const QueryAnswer> answers) { fragments_.absorb(answers); }
 
     /// Sets the levels of all objects in `plan`, and puts them in the order that it promises. `input` is what
     /// the plan was made from. What was known of `FrameInput::new_objects` is forgotten. Cost: about 0.15 µs
@@ -98,12 +106,13 @@ class ObjectLevels {
     [[nodiscard]] static double pixels_per_scene_unit(const Lens& lens, const Aabb& box, double& size_px);
     [[nodiscard]] std::uint8_t level_within(const LevelledObject& object, double pixels_per_unit,
                                             double max_error_px) const;
-    void add(const FrameInput& input, const Lens& lens, ObjectId object);
+    void add(const FrameInput& input, const Lens& lens, const LevelOptions& options, ObjectId object);
     void select(const LevelOptions& options);
 
     std::span<const LodChain> chains_;
     std::vector<LevelledObject> objects_;  ///< by `ObjectId`
     LodSelector selector_;
+    SeenFragments fragments_;
     ObjectSorter sorter_;
     std::vector<std::uint8_t> levels_;  ///< by `ObjectId`
     std::vector<float> errors_px_;

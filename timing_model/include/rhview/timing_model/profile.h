@@ -70,8 +70,8 @@ Result<TimingProfile> load_profile(const std::filesystem::path& file);
 /// The text of the file; the profile is valid. Broken UTF-8 is replaced by U+FFFD.
 std::string profile_text(const TimingProfile& profile);
 
-/// Writes beside the file under another name (`file` + ".part") and renames, so that `file` is old or new,
-/// never half. On an error nothing is left behind. The folder must exist.
+/// As a `ReplacementFile`: `file` is old or new, never half. On an error nothing is left behind. The folder
+/// must exist.
 Status save_profile(const TimingProfile& profile, const std::filesystem::path& file);
 
 }  // namespace rhview
