@@ -4,6 +4,9 @@
 #include "view.h"
 
 #include <algorithm>
+#include <cstring>
+
+#include "rhview/base/rounding.h"
 
 namespace rhview::capi {
 namespace {
@@ -105,6 +108,8 @@ void View::plan(const FrameInput& input, FramePlan& plan) {
     report_.update(input, plan);
     export_plan();
     std::ranges::fill(missed_, std::uint8_t{0});
+    planned_view_ = input.culling_view;
+    planned_pixels_ = input.viewport_pixels;
     has_plan_ = is_planned_ = true;
 }
 
@@ -159,6 +164,29 @@ rhview_plan View::exported_plan() const {
     plan.misses_bound = level_summary_.bound_met ? 0 : 1;
     plan.misses_budget = level_summary_.budget_met ? 0 : 1;
     return plan;
+}
+
+std::span<const rhview_wide_box> View::widen_boxes(const RasterPrecision& raster, double growth,
+                                                   rhview_box_lens& lens) {
+    static_assert(sizeof(rhview_wide_box) == sizeof(BoxInstance));
+    RasterPrecision precision = raster;
+    precision.width = planned_pixels_.x;
+    precision.height = planned_pixels_.y;
+    const BoxWidener widener(planned_view_, scene_->origin, precision, growth);
+    const SplitPosition eye = split_position(planned_view_.eye() - scene_->origin);
+    for (int i = 0; i < 16; ++i) lens.clip_from_relative[i] = widener.clip_from_relative()[i / 4][i % 4];
+    for (int i = 0; i < 3; ++i) lens.eye_high[i] = eye.high[i], lens.eye_low[i] = eye.low[i];
+    for (int i = 0; i < 4; ++i) lens.depth_error[i] = widener.depth_error()[i];
+    lens.nearer = widener.nearer();
+    lens.nearest = widener.nearest();
+    wide_boxes_.resize(plan_.query_boxes.size());
+    for (std::uint32_t q = 0; q < plan_.queries.size(); ++q)
+        for (std::uint32_t b = 0; b < plan_.queries[q].box_count; ++b) {
+            const std::uint32_t box = plan_.queries[q].first_box + b;
+            const BoxInstance wide = widener.widen(plan_.query_boxes[box], q);
+            std::memcpy(&wide_boxes_[box], &wide, sizeof wide);
+        }
+    return wide_boxes_;
 }
 
 rhview_changes View::exported_changes() const {

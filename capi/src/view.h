@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "costs.h"
+#include "rhview/pipeline/query_boxes.h"
 #include "scene.h"
 
 namespace rhview::capi {
@@ -44,6 +45,9 @@ class View final : public FramePlanner {
     [[nodiscard]] bool has_plan() const { return has_plan_; }
     [[nodiscard]] rhview_plan exported_plan() const;
     [[nodiscard]] rhview_changes exported_changes() const;
+    /// The last plan's boxes, for the camera that it was made for.
+    std::span<const rhview_wide_box> widen_boxes(const RasterPrecision& raster, double growth,
+                                                 rhview_box_lens& lens);
     [[nodiscard]] const VisibilityReport& report() const { return report_; }
 
     std::vector<QueryAnswer> answers;  ///< scratch
@@ -65,6 +69,8 @@ class View final : public FramePlanner {
     LevelSummary level_summary_;
     VisibilityReport report_;
     FrameInput input_;
+    rhview::View planned_view_;  ///< what the plan was made for
+    glm::ivec2 planned_pixels_{0};
     FramePlan plan_;
     bool has_camera_ = false, has_plan_ = false;
     bool is_planned_ = false;           ///< in this frame
@@ -75,6 +81,7 @@ class View final : public FramePlanner {
     std::vector<rhview_object_draw> objects_;
     std::vector<rhview_query> queries_;
     std::vector<rhview_box> boxes_;
+    std::vector<rhview_wide_box> wide_boxes_;
     std::vector<rhview_conditional_draw> conditional_draws_;
     std::vector<rhview_conditional_object> conditional_objects_;
     std::vector<std::uint32_t> became_visible_, became_hidden_;

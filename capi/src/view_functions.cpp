@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::uint32_t kMostPixels = 65'536;
 constexpr std::uint32_t kMostBands = 65'534;
+constexpr std::uint32_t kMostSubpixelBits = 16;
+constexpr double kUsualGrowth = 3.0;  ///< of rotations and scales: `rounding_growth`
 
 rhview_status occlusion_of(const rhview_view_options& options, const KnownCosts& costs,
                            std::optional<OcclusionOptions>& occlusion) {
@@ -68,6 +70,21 @@ rhview_status set_levels(View& view, const rhview_level_bounds& bounds) {
     options.costs = view.level_costs();
     options.costs.object_ns = bounds.object_ns;
     view.set_levels(options);
+    return RHVIEW_OK;
+}
+
+rhview_status take_raster(const rhview_raster* given, RasterPrecision& precision, double& growth) {
+    rhview_raster raster;
+    if (const rhview_status status = take(given, "rhview_raster", raster); status != RHVIEW_OK) return status;
+    if (raster.subpixel_bits > kMostSubpixelBits)
+        return fail(RHVIEW_INVALID_ARGUMENT, "rhview_raster: subpixel_bits is 1 to 16, or 0 for 8");
+    if (!(raster.depth_step >= 0.0 && raster.depth_step <= 1.0))
+        return fail(RHVIEW_INVALID_ARGUMENT, "rhview_raster: depth_step is 0 to 1");
+    growth = raster.rounding_growth == 0.0 ? kUsualGrowth : raster.rounding_growth;
+    if (!(growth >= 1.0 && std::isfinite(growth)))
+        return fail(RHVIEW_INVALID_ARGUMENT, "rhview_raster: rounding_growth is at least 1, or 0 for 3");
+    if (raster.subpixel_bits != 0) precision.subpixel_bits = static_cast<int>(raster.subpixel_bits);
+    precision.depth_step = raster.depth_step;
     return RHVIEW_OK;
 }
 
@@ -165,6 +182,26 @@ rhview_status rhview_view_plan(const rhview_view* view, rhview_plan* plan) {
     if (view == nullptr) return fail(RHVIEW_INVALID_ARGUMENT, "rhview_view_plan: view is null");
     if (!view->state.has_plan()) return fail(RHVIEW_WRONG_STATE, "the view was not planned yet");
     return give(view->state.exported_plan(), "rhview_plan", plan);
+}
+
+rhview_status rhview_view_widen_boxes(rhview_view* view, const rhview_raster* raster, rhview_box_lens* lens,
+                                      const rhview_wide_box** boxes, size_t* count) {
+    return guarded([&] {
+        if (view == nullptr || lens == nullptr || boxes == nullptr || count == nullptr)
+            return fail(RHVIEW_INVALID_ARGUMENT, "rhview_view_widen_boxes: an argument is null");
+        if (!view->state.has_plan()) return fail(RHVIEW_WRONG_STATE, "the view was not planned yet");
+        rhview::RasterPrecision precision;
+        double growth = 1.0;
+        if (const rhview_status status = take_raster(raster, precision, growth); status != RHVIEW_OK)
+            return status;
+        rhview_box_lens full{};
+        const auto wide = view->state.widen_boxes(precision, growth, full);
+        if (const rhview_status status = give(full, "rhview_box_lens", lens); status != RHVIEW_OK)
+            return status;
+        *boxes = wide.data();
+        *count = wide.size();
+        return rhview_status{RHVIEW_OK};
+    });
 }
 
 rhview_status rhview_view_absorb(rhview_view* view, const rhview_answer* answers, size_t count) {

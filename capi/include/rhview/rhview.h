@@ -382,7 +382,8 @@ typedef struct rhview_conditional_object {
 
 /**
  * What to do in this order: `draws` and `objects`; the boxes of `queries` against that depth, without writing
- * colour or depth, from both sides, and widened by what your transform and rasteriser round (an engine
+ * colour or depth, from both sides, and widened by what your transform and rasteriser round
+ * (`rhview_view_widen_boxes` does it; an engine
  * that cannot ask draws everything instead); `conditional_draws` and `conditional_objects`, each if its query
  * saw something. Draws of a batch stand together where that does not cost overdraw.
  */
@@ -420,6 +421,47 @@ typedef struct rhview_answer {
 
 /** The last plan of the view; its arrays are valid until the view is planned again or destroyed. */
 RHVIEW_API rhview_status rhview_view_plan(const rhview_view* view, rhview_plan* plan);
+
+/** What the picture's rasteriser rounds to; its depth range is [0, 1]. */
+typedef struct rhview_raster {
+    size_t size;
+    uint32_t subpixel_bits; /**< of a pixel, that vertices are moved to; 0: 8 */
+    double depth_step;      /**< of a fixed-point depth buffer, 2 to the minus its bits; 0: floating point */
+    /** By how much more clip coordinates of objects err than those of static triangles; 0: 3, enough for
+        turned, moved and scaled ones, not for sheared ones. */
+    double rounding_growth;
+} rhview_raster;
+
+/** How the widened boxes are drawn: all in float, depth clamped instead of clipped. */
+typedef struct rhview_box_lens {
+    size_t size;
+    float clip_from_relative[16]; /**< columns; of positions relative to the eye */
+    float eye_high[3];            /**< the scene's coordinates: a vertex v of the scene is drawn at */
+    float eye_low[3];             /**< (v - eye_high) - eye_low */
+    float depth_error[4];
+    float nearer;  /**< to the clip z of a corner p add nearer · (depth_error · (|p|, 1) + shift · w) */
+    float nearest; /**< clip z of a cover, at w = 1 */
+} rhview_box_lens;
+
+/** A box as a vertex shader takes it: 32 bytes. */
+typedef struct rhview_wide_box {
+    float low[3]; /**< relative to the eye */
+    float shift;
+    float high[3];
+    /** Bits 2a and 2a + 1: the face to draw across axis a (0 none, 1 low, 2 high). Bit 6: draw the whole
+        picture instead, at `nearest`. From bit 8 on: the number of the query. */
+    uint32_t faces;
+} rhview_wide_box;
+
+/**
+ * The plan's boxes widened so that one which is not seen proves that nothing in it would be: also what
+ * rounding moves, by half a grid step of the rasteriser as by the last bit of a depth. Valid for renderers
+ * that draw vertices by `lens` too. One per `rhview_plan::boxes`, until the view is planned again or
+ * destroyed. `raster` may be null. RHVIEW_WRONG_STATE: not planned yet. About 60 ns a box.
+ */
+RHVIEW_API rhview_status rhview_view_widen_boxes(rhview_view* view, const rhview_raster* raster,
+                                                 rhview_box_lens* lens, const rhview_wide_box** boxes,
+                                                 size_t* count);
 /** Answers to queries of earlier plans, in any order, as they come; of those not given within 16 frames it
     is assumed that something was seen. Unknown tickets are ignored. */
 RHVIEW_API rhview_status rhview_view_absorb(rhview_view* view, const rhview_answer* answers, size_t count);
