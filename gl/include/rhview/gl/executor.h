@@ -111,8 +111,8 @@ class Executor {
     /// First all draws at once, then the boxes of all queries against that depth, then the conditional draws,
     /// about which the device decides: by conditional rendering, or by indirect commands that it writes
     /// itself. The CPU waits for nothing. What is left out could not have changed a bit of the depths: see
-    /// `query_boxes.h`. Every query has a box. The application's depth range is [0, 1], and it uses no
-    /// polygon offset and no occlusion query of its own meanwhile.
+    /// `pipeline/query_boxes.h`. Every query has a box. The application's depth range is [0, 1], and it uses
+    /// no polygon offset and no occlusion query of its own meanwhile.
     FrameCounters draw(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                        const DrawOptions& options = {});
 

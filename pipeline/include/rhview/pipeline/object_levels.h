@@ -67,6 +67,10 @@ class ObjectLevels {
     /// has full detail.
     ObjectLevels(std::span<const LodChain> chains, std::span<const LevelledObject> objects);
 
+    /// Another object has the number now; its chain is one of the chains. What its number was drawn at is
+    /// forgotten where `FrameInput::new_objects` says so. Allocates for numbers beyond all before.
+    void set_object(ObjectId object, const LevelledObject& levelled);
+
     /// Answers to the queries of earlier plans, for `LodPolicy::Fragments`.
     void absorb(std::span<const QueryAnswer> answers) { fragments_.absorb(answers); }
 
