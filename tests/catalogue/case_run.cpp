@@ -53,6 +53,7 @@ class CaseRun {
     CaseRun(const HardCase& hard_case, int views, Amount amount)
         : case_(hard_case),
           views_(views),
+          amount_(amount),
           scene_(hard_case.make(amount)),
           boxes_(scene_.scene.object_boxes()),
           groups_(object_groups(scene_.scene)) {
@@ -71,8 +72,8 @@ class CaseRun {
             if (format != GL_DEPTH_COMPONENT32F && !case_.every_depth_format) continue;
             Picture picture(format);
             for (const ClipDepth depth : kDepths)
-                for (int view = 0; view < views_; ++view)
-                    one_view(next_view(case_, scene_, depth, uniform), source_order, picture);
+                for (const View& view : views_of(case_, scene_, depth, amount_, views_, uniform))
+                    one_view(view, source_order, picture);
         }
         for (const CatalogueMethod& method : methods_) tally_.hidden += method.hidden;
         return tally_;
@@ -137,6 +138,7 @@ class CaseRun {
 
     const HardCase& case_;
     int views_;
+    Amount amount_;
     HardScene scene_;
     std::vector<Aabb> boxes_;
     std::vector<std::uint32_t> groups_;

@@ -52,11 +52,16 @@ struct HardCase {
     Lens lens{};
     bool every_depth_format = false;  ///< 16 and 24 bits besides floating point
     bool is_large = false;            ///< few methods and views
+    /// Cameras of their own instead of the lens; `validate` may refuse some, which are left out.
+    std::vector<View> (*cameras)(const HardScene&, ClipDepth, Amount) = nullptr;
 };
 
 const std::vector<HardCase>& hard_cases();
 
-/// The next camera of a case, valid.
-View next_view(const HardCase& hard_case, const HardScene& scene, ClipDepth depth, Uniform& uniform);
+/// So many cameras of a case, or all that it has of its own; all are valid.
+std::vector<View> views_of(const HardCase& hard_case, const HardScene& scene, ClipDepth depth, Amount amount,
+                           int count, Uniform& uniform);
+/// A usual camera in the yard with each of its numbers in turn replaced by what no camera has.
+std::vector<View> hostile_cameras(const HardScene& scene, ClipDepth depth, Amount amount);
 
 }  // namespace rhview

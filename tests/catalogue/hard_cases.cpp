@@ -349,6 +349,7 @@ std::vector<HardCase> make_cases() {
         {"two_sided_and_inside_out", inside_out},
         {"t_junctions", t_junctions},
         {"denormal_and_negative_zero_corners", denormals},
+        {"cameras_with_a_hostile_number", usual, usual_lens, false, false, hostile_cameras},
     };
 }
 

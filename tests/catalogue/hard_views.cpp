@@ -60,17 +60,62 @@ Stand anywhere(const HardScene& scene, Uniform& uniform) {
     return {scene.middle + scene.unit * eye, target - eye};
 }
 
+View any_view(const HardCase& hard_case, const HardScene& scene, ClipDepth depth, Uniform& uniform) {
+    const auto count = static_cast<double>(scene.stands.size());
+    const Stand stand = scene.stands.empty() ? anywhere(scene, uniform)
+                                             : scene.stands[static_cast<std::size_t>(uniform(0, count))];
+    return {look_along(scene.scene.origin + stand.eye, stand.forward, {0.02, 1.0, 0.01}),
+            projection_of(hard_case.lens, scene.unit, depth, uniform), depth};
+}
+
 }  // namespace
 
-View next_view(const HardCase& hard_case, const HardScene& scene, ClipDepth depth, Uniform& uniform) {
-    for (;;) {
-        const auto count = static_cast<double>(scene.stands.size());
-        const Stand stand = scene.stands.empty() ? anywhere(scene, uniform)
-                                                 : scene.stands[static_cast<std::size_t>(uniform(0, count))];
-        const View view{look_along(scene.scene.origin + stand.eye, stand.forward, {0.02, 1.0, 0.01}),
-                        projection_of(hard_case.lens, scene.unit, depth, uniform), depth};
-        if (validate(view)) return view;
+std::vector<View> views_of(const HardCase& hard_case, const HardScene& scene, ClipDepth depth, Amount amount,
+                           int count, Uniform& uniform) {
+    std::vector<View> views;
+    if (hard_case.cameras != nullptr) {
+        for (const View& view : hard_case.cameras(scene, depth, amount))
+            if (validate(view)) views.push_back(view);
+        return views;
     }
+    while (views.size() < static_cast<std::size_t>(count)) {
+        const View view = any_view(hard_case, scene, depth, uniform);
+        if (validate(view)) views.push_back(view);
+    }
+    return views;
+}
+
+std::vector<View> hostile_cameras(const HardScene& scene, ClipDepth depth, Amount amount) {
+    constexpr double kLargest = std::numeric_limits<double>::max();
+    constexpr double kLargestFloat = std::numeric_limits<float>::max();
+    constexpr double kHostile[] = {std::numeric_limits<double>::quiet_NaN(),
+                                   std::numeric_limits<double>::infinity(),
+                                   -0.0,
+                                   std::numeric_limits<double>::denorm_min(),
+                                   -1e-310,
+                                   1e-45,
+                                   1e-20,
+                                   kLargest,
+                                   -kLargest,
+                                   1e300,
+                                   kLargestFloat,
+                                   -kLargestFloat,
+                                   1e20,
+                                   -1.0,
+                                   1e8};
+    const View usual{look_along(scene.scene.origin + scene.middle + scene.unit * glm::dvec3(20, 6, 31),
+                                {-20, -5, -30}, {0, 1, 0}),
+                     perspective(1.0, kAspect, 0.05 * scene.unit, 300.0 * scene.unit, depth), depth};
+    std::vector<View> views{usual};
+    std::size_t number = 0;
+    for (int entry = 0; entry < 32; ++entry)
+        for (const double value : kHostile) {
+            if (amount == Amount::Sample && number++ % 23 != 0) continue;
+            views.push_back(usual);
+            glm::dmat4& matrix = entry < 16 ? views.back().camera_from_world : views.back().clip_from_camera;
+            matrix[entry / 4 % 4][entry % 4] = value;
+        }
+    return views;
 }
 
 }  // namespace rhview
