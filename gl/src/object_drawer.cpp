@@ -78,7 +78,7 @@ Result<ObjectDrawer> ObjectDrawer::create(const char* fragment_shader) {
     return drawer;
 }
 
-void ObjectDrawer::place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool conditional,
+void ObjectDrawer::place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool asks,
                              InstanceData& data) {
     const glm::dmat3 linear(scene_from_mesh), inverse(glm::inverse(linear));
     const SplitPosition split = split_position(inverse * (eye.position - glm::dvec3(scene_from_mesh[3])));
@@ -92,7 +92,7 @@ void ObjectDrawer::place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, 
     data.eye_high = split.high;
     data.eye_low = split.low;
     data.handedness = glm::determinant(linear) < 0.0 ? -1.0f : 1.0f;
-    if (conditional) largest_growth_ = std::max(largest_growth_, rounding_growth(linear, inverse));
+    if (asks) largest_growth_ = std::max(largest_growth_, rounding_growth(linear, inverse));
 }
 
 void ObjectDrawer::append(std::vector<ObjectRun>& runs, const ObjectRun& one) {
@@ -115,23 +115,23 @@ void ObjectDrawer::place(const FramePlan& plan, const SceneBuffers& scene, const
     std::uint32_t place = 0;
     at_once_.clear();
     conditional_.clear();
-    largest_growth_ = 1.0;
+    const bool asks = !plan.queries.empty();
+    if (asks) largest_growth_ = std::max(largest_growth_, scene.largest_growth());
     const Eye eye(view, scene.origin());
-    const auto add = [&](std::vector<ObjectRun>& runs, ObjectId id, std::uint8_t level, std::uint32_t query,
-                         bool conditional) {
+    const auto add = [&](std::vector<ObjectRun>& runs, ObjectId id, std::uint8_t level, std::uint32_t query) {
         const std::uint32_t mesh = scene.object_meshes()[index_of(id)];
         InstanceData& data = data_[place];
-        place_one(eye, placements[index_of(id)], conditional, data);
+        place_one(eye, placements[index_of(id)], asks, data);
         append(runs, {&scene.meshes()[mesh], scene.level_range(mesh, level), place++, 1, query, level,
                       data.handedness < 0.0f});
     };
     for (std::size_t i = 0; i < plan.objects.size(); ++i)
-        add(at_once_, plan.objects[i], plan.level_of_object(i), 0, false);
+        add(at_once_, plan.objects[i], plan.level_of_object(i), 0);
     const std::span<const ConditionalObject> conditional = plan.conditional_objects;
     for (std::size_t i = 0; i < conditional.size(); ++i) {
         if (i + kPrefetchSteps < conditional.size())
             prefetch(&placements[index_of(conditional[i + kPrefetchSteps].object)]);
-        add(conditional_, conditional[i].object, conditional[i].level, conditional[i].query, true);
+        add(conditional_, conditional[i].object, conditional[i].level, conditional[i].query);
     }
     if (!data_.empty()) upload();
 }

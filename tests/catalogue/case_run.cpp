@@ -4,11 +4,14 @@
 #include "case_run.h"
 
 #include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
 #include <optional>
 
 #include "any_target.h"
 #include "catalogue_methods.h"
 #include "rhview/gl/context.h"
+#include "rhview/rhoctree/facing.h"
 #include "rhview/scenes/object_motion.h"
 #include "vertex_error.h"
 
@@ -38,14 +41,63 @@ class Picture {
     std::optional<gl::AnyTarget> other_;
 };
 
-/// The same, a call per static triangle.
-FramePlan one_by_one(FramePlan plan) {
-    std::vector<DrawRange> triangles;
+/// The same, a call per static triangle; those that `shown` refuses are left out.
+template <class Shown>
+FramePlan one_by_one(const FramePlan& plan, const Shown& shown) {
+    FramePlan result = plan;
+    result.opaque.clear();
+    result.conditional.clear();
+    const auto split = [&](const DrawRange& range, const auto& add) {
+        for (std::uint32_t first = range.first_index; first < range.first_index + range.index_count;
+             first += 3)
+            if (const DrawRange triangle{range.batch, first, 3}; shown(triangle)) add(triangle);
+    };
     for (const DrawRange& range : plan.opaque)
-        for (std::uint32_t first = 0; first < range.index_count; first += 3)
-            triangles.push_back({range.batch, range.first_index + first, 3});
-    plan.opaque = std::move(triangles);
-    return plan;
+        split(range, [&](const DrawRange& triangle) { result.opaque.push_back(triangle); });
+    for (const ConditionalRange& conditional : plan.conditional)
+        split(conditional.range, [&](const DrawRange& triangle) {
+            result.conditional.push_back({triangle, conditional.query});
+        });
+    return result;
+}
+
+FramePlan one_by_one(const FramePlan& plan) {
+    return one_by_one(plan, [](const DrawRange&) { return true; });
+}
+
+using Corners = std::array<glm::dvec3, 3>;
+
+/// Whether a triangle shows its back, to a perspective from `eye`, by the margin that `faces_away` has.
+bool is_turned_away(const Corners& corners, const glm::dvec3& eye) {
+    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    return std::ranges::all_of(corners, [&](const glm::dvec3& corner) {
+        const glm::dvec3 ray = corner - eye;
+        return glm::dot(normal, ray) >=
+               static_cast<double>(kFacingSlack) * glm::length(normal) * glm::length(ray);
+    });
+}
+
+/// The shortest altitude of corners in a plane or in space, in their unit.
+double altitude(const Corners& corners) {
+    const glm::dvec3 ab = corners[1] - corners[0], ac = corners[2] - corners[0], bc = corners[2] - corners[1];
+    const double longest = std::max({glm::length(ab), glm::length(ac), glm::length(bc)});
+    return longest > 0.0 ? glm::length(glm::cross(ab, ac)) / longest : 0.0;
+}
+
+/// How thin a triangle is on the picture, pixels. One that reaches behind the eye is any size there: then
+/// the share that its altitude has of its size, as if that were the picture's.
+double thickness_px(const Corners& corners, const View& view, const glm::dvec3& eye) {
+    const glm::dmat4 clip = view.clip_from_eye_relative();
+    Corners pixels;
+    bool is_before_eye = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec4 p = clip * glm::dvec4(corners[i] - eye, 1.0);
+        is_before_eye = is_before_eye && p.w > 0.0;
+        pixels[i] = {0.5 * kWidth * p.x / p.w, 0.5 * kHeight * p.y / p.w, 0.0};
+    }
+    if (is_before_eye) return altitude(pixels);
+    const double size = std::max(glm::length(corners[1] - corners[0]), glm::length(corners[2] - corners[0]));
+    return size > 0.0 ? kWidth * altitude(corners) / size : 0.0;
 }
 
 class CaseRun {
@@ -59,6 +111,11 @@ class CaseRun {
           groups_(object_groups(scene_.scene)) {
         tally_.static_triangles = scene_.scene.batch_triangles();
         tally_.objects = boxes_.size();
+        std::uint32_t first = 0;
+        for (const SceneBatch& batch : scene_.scene.batches) {
+            batch_first_.push_back(first);
+            first += static_cast<std::uint32_t>(batch.indices.size());
+        }
     }
 
     Tally all_frames() {
@@ -84,12 +141,14 @@ class CaseRun {
         FrameInput input{view, scene_.scene.origin, boxes_, {kWidth, kHeight}};
         input.object_groups = groups_;
         const FramePlan everything = everything_of(scene_.scene, input);
-        const std::uint64_t all_indices = draw_reference(everything, view, source_order, picture, reference_);
-        draw_reference(one_by_one(everything), view, source_order, picture, other_reference_);
+        const std::uint64_t all_indices = draw_plan(everything, view, source_order, picture, reference_);
+        draw_plan(one_by_one(everything), view, source_order, picture, single_);
+        const auto is_certain = [&](const DrawRange& triangle) { return !is_drawn_by_luck(triangle, view); };
+        draw_plan(one_by_one(everything, is_certain), view, source_order, picture, certain_);
         const float farthest = view.clip_depth == ClipDepth::ReversedZeroToOne ? 0.0f : 1.0f;
         for (std::size_t pixel = 0; pixel < reference_.size(); ++pixel) {
             tally_.covered += reference_[pixel] != farthest ? 1 : 0;
-            if (reference_[pixel] != other_reference_[pixel]) ++tally_.undecided;
+            tally_.undecided += reference_[pixel] != single_[pixel] ? 1 : 0;
         }
         ++tally_.views;
         tally_.worst_error_px =
@@ -103,19 +162,52 @@ class CaseRun {
     }
 
     /// The number of indices.
-    std::uint64_t draw_reference(const FramePlan& plan, const View& view, const gl::SceneBuffers& buffers,
-                                 Picture& picture, std::vector<float>& depths) {
+    std::uint64_t draw_plan(const FramePlan& plan, const View& view, const gl::SceneBuffers& buffers,
+                            Picture& picture, std::vector<float>& depths) {
         picture.begin(view.clip_depth);
         const std::uint64_t indices = device_->executor.draw(plan, buffers, view).indices;
         picture.read(depths);
         return indices;
     }
 
-    [[nodiscard]] std::uint64_t missing_pixels() const {
-        std::uint64_t missing = 0;
+    /// `triangle` is of the scene's own order of indices.
+    [[nodiscard]] bool is_drawn_by_luck(const DrawRange& triangle, const View& view) const {
+        const SceneBatch& batch = scene_.scene.batches[index_of(triangle.batch)];
+        const std::uint32_t first = triangle.first_index - batch_first_[index_of(triangle.batch)];
+        const auto corner = [&](std::uint32_t i) {
+            return glm::dvec3(scene_.scene.pools[batch.pool].positions[batch.indices[first + i]]);
+        };
+        const Corners corners{corner(0), corner(1), corner(2)};
+        const glm::dvec3 eye = view.eye() - scene_.scene.origin;
+        const double thickness = thickness_px(corners, view, eye);
+        const bool is_perspective = view.clip_from_camera[3][3] == 0.0;
+        return thickness < 1.0 / 16.0 ||
+               (thickness < 1.06 && is_perspective &&
+                !scene_.scene.materials[index_of(batch.material)].two_sided && is_turned_away(corners, eye));
+    }
+
+    /// Of the frame just drawn, against drawing everything.
+    [[nodiscard]] bool differs(const std::vector<float>& expected) const {
         for (std::size_t pixel = 0; pixel < depths_.size(); ++pixel)
-            if (depths_[pixel] != reference_[pixel] && reference_[pixel] == other_reference_[pixel])
-                ++missing;
+            if (depths_[pixel] != expected[pixel] && reference_[pixel] == single_[pixel]) return true;
+        return false;
+    }
+
+    /// Pixels of the frame just drawn that differ, in this frame and with a call per triangle.
+    std::uint64_t missing_pixels(const CatalogueMethod& method, const View& view, bool promised,
+                                 Picture& picture) {
+        if (!differs(reference_)) return 0;
+        draw_plan(one_by_one(method.last_plan()), view, method.buffers, picture, depths_);
+        gl::finish();
+        answers_.clear();
+        device_->executor.poll_answers(answers_);  // the method has had them
+        std::uint64_t missing = 0;
+        for (std::size_t pixel = 0; pixel < depths_.size(); ++pixel) {
+            if (depths_[pixel] == single_[pixel] || reference_[pixel] != single_[pixel]) continue;
+            const bool is_certain = single_[pixel] == certain_[pixel];
+            missing += is_certain ? 1 : 0;
+            tally_.doubtful += promised && !is_certain ? 1 : 0;
+        }
         return missing;
     }
 
@@ -128,7 +220,7 @@ class CaseRun {
                                     frame % 2 == 0 ? gl::Submission::MultiDraw : gl::Submission::Plain);
             ++tally_.frames;
             picture.read(depths_);
-            const std::uint64_t missing = missing_pixels();
+            const std::uint64_t missing = missing_pixels(method, input.culling_view, promised, picture);
             (promised ? tally_.missing : tally_.late) += missing;
             if (promised && missing > 0 && tally_.first_missing.empty())
                 tally_.first_missing = method.name + ", view " + std::to_string(tally_.views) + ", frame " +
@@ -144,7 +236,9 @@ class CaseRun {
     std::vector<std::uint32_t> groups_;
     std::optional<CatalogueDevice> device_;
     std::vector<CatalogueMethod> methods_;
-    std::vector<float> reference_, other_reference_, depths_;
+    std::vector<float> reference_, single_, certain_, depths_;
+    std::vector<std::uint32_t> batch_first_;  ///< indices before a batch's
+    std::vector<QueryAnswer> answers_;
     gl::FrameCounters counters_;
     Tally tally_;
 };

@@ -159,6 +159,14 @@ gl::FrameCounters CatalogueMethod::draw(const FrameInput& input, CatalogueDevice
     return counters;
 }
 
+FramePlan CatalogueMethod::last_plan() const {
+    if (!interactive) return plan_;
+    FramePlan plan = drawn_.plan;
+    plan.queries.clear();
+    plan.query_boxes.clear();
+    return plan;
+}
+
 std::vector<CatalogueMethod> catalogue_methods(const Scene& scene, bool is_large) {
     std::vector<CatalogueMethod> methods;
     methods.push_back(over_octree("rhview, asks nothing", scene, [](const RhOctree& octree) {

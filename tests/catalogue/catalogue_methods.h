@@ -39,6 +39,9 @@ class CatalogueMethod {
     /// Draws a frame into the bound target; its answers, if it asked, come before the next.
     gl::FrameCounters draw(const FrameInput& input, CatalogueDevice& device, gl::Submission submission);
 
+    /// What draws the last frame's picture again.
+    [[nodiscard]] FramePlan last_plan() const;
+
     std::uint64_t hidden = 0;  ///< answers that nothing was seen
 
   private:
