@@ -191,6 +191,53 @@ TEST_P(ViewCases, conditional_objects_leave_the_depths_of_drawing_them_all) {
     EXPECT_LT(hidden, asked);
 }
 
+// As latent mode asks about what it left out: nothing hangs on the answer.
+TEST_P(ViewCases, objects_that_are_asked_about_and_not_drawn_are_seen_where_they_would_show) {
+    const auto [depth, far] = GetParam();
+    Uniform uniform(85);
+    SceneBuilder builder;
+    const MaterialId material = builder.add_material({"", glm::vec3(0.8f), true, false});
+    const MeshId mesh = builder.add_mesh(material, triangle_piece()).value();
+    // Turned, then squashed: what rounds in their own space is much in the scene's.
+    const glm::dmat4 squashed = glm::scale(glm::dmat4(1.0), {1.0, 0.01, 30.0});
+    for (int i = 0; i < 200; ++i) {
+        glm::dmat4 place = glm::translate(squashed, uniform.point(36.0));
+        place = glm::rotate(place, uniform(0, 6), glm::normalize(uniform.point(1.0) + 1.1));
+        place = glm::scale(place, glm::dvec3(uniform.log(0.3, 6.0)));
+        builder.add_dynamic(mesh, glm::translate(place, glm::dvec3(0, 0, 5)));
+    }
+    const Scene scene = builder.finish("squashed").value();
+    const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+    FramePlan asking;
+    for (std::uint32_t i = 0; i < scene.dynamic_objects.size(); ++i) {
+        if (i % 2 == 0) {
+            asking.objects.push_back(ObjectId{i});
+            continue;
+        }
+        const auto box = static_cast<std::uint32_t>(asking.query_boxes.size());
+        asking.queries.push_back(
+            {i, box, 1, i % 4 == 1 ? QueryWay::BoxPass : QueryWay::HardwareQuery, false});
+        asking.query_boxes.push_back(
+            transform_box(scene.dynamic_objects[i].scene_from_mesh, scene.meshes[0].bounds));
+    }
+    std::size_t seen = 0, hidden = 0;
+    for (int v = 0; v < 60; ++v) {
+        const glm::dvec3 eye = uniform.point(45.0);
+        const View view = view_at(eye, uniform.point(12.0) - eye, depth, far);
+        const std::vector<float> without = depths_of(asking, buffers, view);
+        FramePlan with;
+        with.objects = asking.objects;
+        for (const auto& [object, answer] : answers()) {
+            if (!answer.visible) with.objects.push_back(ObjectId{static_cast<std::uint32_t>(object)});
+            seen += answer.visible ? 1 : 0;
+        }
+        hidden += with.objects.size() - asking.objects.size();
+        EXPECT_EQ(count_missing_pixels(depths_of(with, buffers, view), without), 0u) << v;
+    }
+    EXPECT_GT(hidden, 100u);
+    EXPECT_GT(seen, 100u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Depths, ViewCases,
                          testing::Values(ViewCase{ClipDepth::NegativeOneToOne, 1e5},
                                          ViewCase{ClipDepth::ZeroToOne, 1e5},
