@@ -96,13 +96,13 @@ Extent extent_of(std::span<const TriangleBatch> batches, const TriangleIds& ids)
 }
 
 std::vector<MortonTriangle> codes_of(std::span<const TriangleBatch> batches, const TriangleIds& ids,
-                                     BuildProgress& progress) {
+                                     std::size_t cell_triangles, BuildProgress& progress) {
     const Extent extent = extent_of(batches, ids);
     const glm::dvec3 size = extent.high - extent.low;
     const double edge = std::max({size.x, size.y, size.z});
     const double cells_per_unit = edge > 0.0 ? kCells / edge : 0.0;
     const auto code_of = [&](const glm::dvec3& sum) {
-        const glm::dvec3 cell = glm::min((sum - extent.low) * cells_per_unit, kCells - 1.0);
+        const glm::dvec3 cell = glm::clamp((sum - extent.low) * cells_per_unit, 0.0, kCells - 1.0);
         const auto bits = [](double c) { return spread_bits(static_cast<std::uint64_t>(c)); };
         return bits(cell.x) | bits(cell.y) << 1 | bits(cell.z) << 2;
     };
@@ -118,6 +118,14 @@ std::vector<MortonTriangle> codes_of(std::span<const TriangleBatch> batches, con
                           });
         progress.advance(range.size());
     });
+    for (std::uint32_t b = 0; b < batches.size(); ++b)
+        for (const BatchObject& object : batches[b].objects) {
+            if (object.index_count > 3 * cell_triangles) continue;
+            const glm::dvec3 sum = 1.5 * (glm::dvec3(object.bounds.min) + glm::dvec3(object.bounds.max));
+            const std::uint64_t code = code_of(sum);
+            for (std::uint32_t t = object.first_index / 3; t < (object.first_index + object.index_count) / 3; ++t)
+                triangles[ids.first_of(b) + t].code = code;
+        }
     return triangles;
 }
 
@@ -218,7 +226,7 @@ std::vector<MortonTriangle> sort_by_morton_code(std::span<const TriangleBatch> b
                                                 const TriangleIds& ids, std::size_t cell_triangles,
                                                 BuildProgress& progress) {
     progress.begin_phase(0.15, ids.count());
-    std::vector<MortonTriangle> triangles = codes_of(batches, ids, progress);
+    std::vector<MortonTriangle> triangles = codes_of(batches, ids, cell_triangles, progress);
     progress.begin_phase(0.15, ids.count());
     CellSort(triangles, cell_triangles, progress).run();
     return triangles;
