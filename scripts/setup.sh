@@ -26,10 +26,12 @@ packages=(
     libcli11-dev libfmt-dev
     # the viewer, and a display without a screen that it is tested in
     libglfw3-dev libimgui-dev xvfb xauth
-    # the sample that drives OGRE
-    libogre-1.12-dev
+    # the samples that drive OGRE and OpenSceneGraph
+    libogre-1.12-dev libopenscenegraph-dev
     # tests and benchmarks
     libgtest-dev libbenchmark-dev
+    # the reference, made of the headers
+    doxygen
     # plots, and a browser that report pages are tested in
     python3-matplotlib chromium
 )

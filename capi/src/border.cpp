@@ -27,19 +27,26 @@ const char* last_error() noexcept {
     return sentence_of_thread.data();
 }
 
-rhview_status fail_size(const char* name, std::size_t size) noexcept {
+rhview_status fail_field(const char* name, std::initializer_list<const char*> wrong) noexcept {
     std::array<char, 256> text{};
-    std::array<char, 24> number{};
-    std::to_chars(number.data(), number.data() + number.size() - 1, size);
     std::size_t length = 0;
-    for (const char* part : {name, ": its size is ", static_cast<const char*>(number.data()),
-                             ", which is none of this library's, or what it adds is not zero: set it to "
-                             "zero, then size to sizeof"}) {
-        const std::size_t part_length = std::min(std::strlen(part), text.size() - 1 - length);
+    const auto append = [&](const char* part) {
+        const std::size_t part_length = std::min(std::strlen(part), text.size() - length);
         std::copy_n(part, part_length, text.data() + length);
         length += part_length;
-    }
+    };
+    append(name);
+    append(": ");
+    for (const char* part : wrong) append(part);
     return fail(RHVIEW_INVALID_ARGUMENT, {text.data(), length});
+}
+
+rhview_status fail_size(const char* name, std::size_t size) noexcept {
+    std::array<char, 24> number{};
+    std::to_chars(number.data(), number.data() + number.size() - 1, size);
+    return fail_field(name, {"its size is ", number.data(),
+                             ", which is none of this library's, or what it adds is not zero: set it to "
+                             "zero, then size to sizeof"});
 }
 
 rhview_status take_workers(const rhview_workers* given, Workers& workers) noexcept {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <initializer_list>
 #include <new>
 #include <string_view>
 
@@ -37,6 +38,8 @@ rhview_status guarded(Body&& body) noexcept {
 /// Larger than any structure will ever be: another size is a mistake.
 inline constexpr std::size_t kLargestStruct = 4096;
 
+/// "rhview_batch: indices is null".
+rhview_status fail_field(const char* name, std::initializer_list<const char*> wrong) noexcept;
 rhview_status fail_size(const char* name, std::size_t size) noexcept;
 
 /// Copies a structure of any size; zeros where it is shorter. Null: all zeros.

@@ -4,28 +4,24 @@
 #include "scene.h"
 
 #include <cmath>
-#include <cstring>
-#include <string>
 
 #include "border.h"
+#include "chains.h"
 #include "costs.h"
 #include "rhview/base/workers.h"
+#include "source_arrays.h"
 
 namespace rhview::capi {
 namespace {
 
-constexpr std::size_t kTightStride = 3 * sizeof(float);
-
-/// A caller's batches as the builder takes them; what it cannot take as it is, is copied.
+/// A caller's batches as the builder takes them.
 class SourceBatches {
   public:
     explicit SourceBatches(const std::vector<rhview_batch>& given) {
-        positions_.reserve(given.size());
-        indices_.reserve(given.size());
         for (const rhview_batch& batch : given) {
             const auto material = static_cast<std::uint32_t>(batches_.size());
-            batches_.push_back(
-                {MaterialId{material}, positions_of(batch), indices_of(batch), batch.is_two_sided != 0});
+            batches_.push_back({MaterialId{material}, arrays_.positions(batch), arrays_.indices(batch),
+                                batch.is_two_sided != 0});
             index_count_ += batch.index_count;
         }
     }
@@ -34,40 +30,10 @@ class SourceBatches {
     [[nodiscard]] std::uint64_t index_count() const { return index_count_; }
 
   private:
-    std::span<const glm::vec3> positions_of(const rhview_batch& batch) {
-        static_assert(sizeof(glm::vec3) == kTightStride);
-        if (batch.position_stride == kTightStride)
-            return {reinterpret_cast<const glm::vec3*>(batch.positions), batch.vertex_count};
-        std::vector<glm::vec3>& copy = positions_.emplace_back(batch.vertex_count);
-        const auto* bytes = reinterpret_cast<const unsigned char*>(batch.positions);
-        for (std::size_t i = 0; i < batch.vertex_count; ++i)
-            std::memcpy(&copy[i], bytes + i * batch.position_stride, kTightStride);
-        return copy;
-    }
-
-    std::span<const std::uint32_t> indices_of(const rhview_batch& batch) {
-        if (batch.index_bytes == 4)
-            return {static_cast<const std::uint32_t*>(batch.indices), batch.index_count};
-        const auto* narrow = static_cast<const std::uint16_t*>(batch.indices);
-        return indices_.emplace_back(narrow, narrow + batch.index_count);
-    }
-
+    SourceArrays arrays_;
     std::vector<TriangleBatch> batches_;
-    std::vector<std::vector<glm::vec3>> positions_;
-    std::vector<std::vector<std::uint32_t>> indices_;
     std::uint64_t index_count_ = 0;
 };
-
-/// What is wrong with a batch, apart from what its numbers say; null: nothing. Fills in what is left out.
-const char* complete(rhview_batch& batch) {
-    if (batch.index_bytes == 0) batch.index_bytes = 4;
-    if (batch.position_stride == 0) batch.position_stride = kTightStride;
-    if (batch.index_bytes != 2 && batch.index_bytes != 4) return "rhview_batch: index_bytes is 2 or 4";
-    if (batch.position_stride < kTightStride) return "rhview_batch: position_stride is less than 12 bytes";
-    if (batch.positions == nullptr && batch.vertex_count > 0) return "rhview_batch: positions is null";
-    if (batch.indices == nullptr && batch.index_count > 0) return "rhview_batch: indices is null";
-    return nullptr;
-}
 
 OctreeOptions octree_options(const rhview_build_options& given, const KnownCosts& costs,
                              const SourceBatches& source) {
@@ -118,6 +84,8 @@ rhview_status rhview_scene_create(const rhview_scene_options* options, rhview_sc
         created->state->origin = {taken.origin[0], taken.origin[1], taken.origin[2]};
         created->state->object_indices.resize(taken.max_objects);
         created->state->has_object.resize(taken.max_objects);
+        created->state->levelled.resize(taken.max_objects);
+        if (taken.chains != nullptr) created->state->chains = taken.chains->chains;
         *scene = created.release();
         return rhview_status{RHVIEW_OK};
     });
@@ -136,7 +104,8 @@ rhview_status rhview_scene_add_batch(rhview_scene* scene, const rhview_batch* ba
         rhview_batch taken;
         if (const rhview_status status = take(batch, "rhview_batch", taken); status != RHVIEW_OK)
             return status;
-        if (const char* wrong = complete(taken)) return fail(RHVIEW_INVALID_ARGUMENT, wrong);
+        complete_arrays(taken);
+        if (const char* wrong = wrong_arrays(taken)) return fail_field("rhview_batch", {wrong});
         scene->state->batches.push_back(taken);
         if (batch_number != nullptr) *batch_number = static_cast<uint32_t>(scene->state->batches.size() - 1);
         return rhview_status{RHVIEW_OK};

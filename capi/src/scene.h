@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rhview/pipeline/moving_objects.h"
+#include "rhview/pipeline/object_levels.h"
 #include "rhview/pipeline/plan_views.h"
 #include "rhview/pipeline/rhview_planner.h"
 #include "rhview/pipeline/visibility_report.h"
@@ -29,8 +30,10 @@ struct Scene {
     RhOctree octree;
 
     MovingObjects objects;
-    std::vector<std::uint32_t> object_indices;  ///< by object; never moves: planners look at it
-    std::vector<bool> has_object;               ///< by object
+    std::vector<std::uint32_t> object_indices;            ///< by object: at full detail
+    std::vector<bool> has_object;                         ///< by object
+    std::shared_ptr<const std::vector<LodChain>> chains;  ///< null: none
+    std::vector<LevelledObject> levelled;                 ///< by object
     std::uint32_t object_count = 0;
     std::vector<std::uint32_t> due;  ///< as C sees it
     double time_s = 0.0;

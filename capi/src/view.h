@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "costs.h"
+#include "rhview/pipeline/query_boxes.h"
 #include "scene.h"
 
 namespace rhview::capi {
@@ -27,6 +28,12 @@ class View final : public FramePlanner {
     [[nodiscard]] bool has_camera() const { return has_camera_; }
     [[nodiscard]] const Scene& scene() const { return *scene_; }
 
+    /// Of the next plans; none: full detail.
+    void set_levels(const std::optional<LevelOptions>& options) { level_options_ = options; }
+    void set_levelled(ObjectId object, const LevelledObject& levelled);
+    /// Without what an object costs whatever its level.
+    [[nodiscard]] const LodCosts& level_costs() const { return level_costs_; }
+
     void absorb(std::span<const QueryAnswer> answers) override;
     /// Takes in what changed of the scene. Then the view can be planned.
     ViewToPlan prepare();
@@ -38,19 +45,32 @@ class View final : public FramePlanner {
     [[nodiscard]] bool has_plan() const { return has_plan_; }
     [[nodiscard]] rhview_plan exported_plan() const;
     [[nodiscard]] rhview_changes exported_changes() const;
+    /// The last plan's boxes, for the camera that it was made for.
+    std::span<const rhview_wide_box> widen_boxes(const RasterPrecision& raster, double growth,
+                                                 rhview_box_lens& lens);
     [[nodiscard]] const VisibilityReport& report() const { return report_; }
 
     std::vector<QueryAnswer> answers;  ///< scratch
     std::vector<ViewToPlan> to_plan;   ///< scratch of calls whose first view this is
 
   private:
+    static std::optional<OcclusionOptions> with_indices(std::optional<OcclusionOptions> occlusion,
+                                                        std::span<const std::uint32_t> object_indices);
     void find_new_objects();
+    void count_object_indices();
     void export_plan();
 
     std::shared_ptr<Scene> scene_;
+    std::vector<std::uint32_t> object_indices_;  ///< by object, at its level; never moves: the planner looks
     RhviewPlanner planner_;
+    std::optional<ObjectLevels> levels_;  ///< none: no object has chains
+    std::optional<LevelOptions> level_options_;
+    LodCosts level_costs_;
+    LevelSummary level_summary_;
     VisibilityReport report_;
     FrameInput input_;
+    rhview::View planned_view_;  ///< what the plan was made for
+    glm::ivec2 planned_pixels_{0};
     FramePlan plan_;
     bool has_camera_ = false, has_plan_ = false;
     bool is_planned_ = false;           ///< in this frame
@@ -61,6 +81,7 @@ class View final : public FramePlanner {
     std::vector<rhview_object_draw> objects_;
     std::vector<rhview_query> queries_;
     std::vector<rhview_box> boxes_;
+    std::vector<rhview_wide_box> wide_boxes_;
     std::vector<rhview_conditional_draw> conditional_draws_;
     std::vector<rhview_conditional_object> conditional_objects_;
     std::vector<std::uint32_t> became_visible_, became_hidden_;

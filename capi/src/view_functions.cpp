@@ -13,8 +13,10 @@ namespace {
 
 constexpr std::uint32_t kMostPixels = 65'536;
 constexpr std::uint32_t kMostBands = 65'534;
+constexpr std::uint32_t kMostSubpixelBits = 16;
+constexpr double kUsualGrowth = 3.0;  ///< of rotations and scales: `rounding_growth`
 
-rhview_status occlusion_of(const rhview_view_options& options, const KnownCosts& costs, const Scene& scene,
+rhview_status occlusion_of(const rhview_view_options& options, const KnownCosts& costs,
                            std::optional<OcclusionOptions>& occlusion) {
     if (options.occlusion == RHVIEW_OCCLUSION_OFF) return RHVIEW_OK;
     if (options.occlusion > RHVIEW_OCCLUSION_LATENT)
@@ -27,7 +29,6 @@ rhview_status occlusion_of(const rhview_view_options& options, const KnownCosts&
         options.occlusion == RHVIEW_OCCLUSION_LATENT ? OcclusionMode::Latent : OcclusionMode::Exact;
     occlusion->costs = *costs.queries;
     occlusion->shown_index_ns = costs.shown_index_ns;
-    occlusion->object_indices = scene.object_indices;
     return RHVIEW_OK;
 }
 
@@ -51,12 +52,39 @@ rhview_status create(rhview_scene& scene, const rhview_view_options* given, rhvi
     KnownCosts costs;
     if (const rhview_status status = take_costs(options.costs, costs); status != RHVIEW_OK) return status;
     std::optional<OcclusionOptions> occlusion;
-    if (const rhview_status status = occlusion_of(options, costs, *scene.state, occlusion);
-        status != RHVIEW_OK)
+    if (const rhview_status status = occlusion_of(options, costs, occlusion); status != RHVIEW_OK)
         return status;
     VisibilityReportSettings report;
     if (const rhview_status status = report_of(options, report); status != RHVIEW_OK) return status;
     *view = new rhview_view{View(scene.state, costs, occlusion, std::move(report))};
+    return RHVIEW_OK;
+}
+
+rhview_status set_levels(View& view, const rhview_level_bounds& bounds) {
+    for (const double value : {bounds.max_error_px, bounds.budget_ns, bounds.object_ns})
+        if (!(std::isfinite(value) && value >= 0.0))
+            return fail(RHVIEW_INVALID_ARGUMENT, "rhview_level_bounds: a bound is negative or no number");
+    LevelOptions options;
+    options.max_error_px = bounds.max_error_px;
+    if (bounds.budget_ns > 0.0) options.budget_ns = bounds.budget_ns;
+    options.costs = view.level_costs();
+    options.costs.object_ns = bounds.object_ns;
+    view.set_levels(options);
+    return RHVIEW_OK;
+}
+
+rhview_status take_raster(const rhview_raster* given, RasterPrecision& precision, double& growth) {
+    rhview_raster raster;
+    if (const rhview_status status = take(given, "rhview_raster", raster); status != RHVIEW_OK) return status;
+    if (raster.subpixel_bits > kMostSubpixelBits)
+        return fail(RHVIEW_INVALID_ARGUMENT, "rhview_raster: subpixel_bits is 1 to 16, or 0 for 8");
+    if (!(raster.depth_step >= 0.0 && raster.depth_step <= 1.0))
+        return fail(RHVIEW_INVALID_ARGUMENT, "rhview_raster: depth_step is 0 to 1");
+    growth = raster.rounding_growth == 0.0 ? kUsualGrowth : raster.rounding_growth;
+    if (!(growth >= 1.0 && std::isfinite(growth)))
+        return fail(RHVIEW_INVALID_ARGUMENT, "rhview_raster: rounding_growth is at least 1, or 0 for 3");
+    if (raster.subpixel_bits != 0) precision.subpixel_bits = static_cast<int>(raster.subpixel_bits);
+    precision.depth_step = raster.depth_step;
     return RHVIEW_OK;
 }
 
@@ -124,6 +152,17 @@ rhview_status rhview_view_set_camera(rhview_view* view, const rhview_camera* cam
     });
 }
 
+rhview_status rhview_view_set_levels(rhview_view* view, const rhview_level_bounds* bounds) {
+    return guarded([&] {
+        if (view == nullptr) return fail(RHVIEW_INVALID_ARGUMENT, "rhview_view_set_levels: view is null");
+        if (bounds == nullptr) return view->state.set_levels(std::nullopt), rhview_status{RHVIEW_OK};
+        rhview_level_bounds taken;
+        if (const rhview_status status = take(bounds, "rhview_level_bounds", taken); status != RHVIEW_OK)
+            return status;
+        return set_levels(view->state, taken);
+    });
+}
+
 rhview_status rhview_plan_views(rhview_view* const* views, size_t count, const rhview_workers* workers) {
     return guarded([&] {
         if (count == 0) return rhview_status{RHVIEW_OK};
@@ -143,6 +182,26 @@ rhview_status rhview_view_plan(const rhview_view* view, rhview_plan* plan) {
     if (view == nullptr) return fail(RHVIEW_INVALID_ARGUMENT, "rhview_view_plan: view is null");
     if (!view->state.has_plan()) return fail(RHVIEW_WRONG_STATE, "the view was not planned yet");
     return give(view->state.exported_plan(), "rhview_plan", plan);
+}
+
+rhview_status rhview_view_widen_boxes(rhview_view* view, const rhview_raster* raster, rhview_box_lens* lens,
+                                      const rhview_wide_box** boxes, size_t* count) {
+    return guarded([&] {
+        if (view == nullptr || lens == nullptr || boxes == nullptr || count == nullptr)
+            return fail(RHVIEW_INVALID_ARGUMENT, "rhview_view_widen_boxes: an argument is null");
+        if (!view->state.has_plan()) return fail(RHVIEW_WRONG_STATE, "the view was not planned yet");
+        rhview::RasterPrecision precision;
+        double growth = 1.0;
+        if (const rhview_status status = take_raster(raster, precision, growth); status != RHVIEW_OK)
+            return status;
+        rhview_box_lens full{};
+        const auto wide = view->state.widen_boxes(precision, growth, full);
+        if (const rhview_status status = give(full, "rhview_box_lens", lens); status != RHVIEW_OK)
+            return status;
+        *boxes = wide.data();
+        *count = wide.size();
+        return rhview_status{RHVIEW_OK};
+    });
 }
 
 rhview_status rhview_view_absorb(rhview_view* view, const rhview_answer* answers, size_t count) {

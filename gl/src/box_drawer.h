@@ -7,7 +7,7 @@
 
 #include "rhview/base/result.h"
 #include "rhview/gl/handle.h"
-#include "rhview/gl/query_boxes.h"
+#include "rhview/pipeline/query_boxes.h"
 
 namespace rhview::gl {
 

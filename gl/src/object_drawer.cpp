@@ -14,7 +14,7 @@
 #include "rhview/base/assert.h"
 #include "rhview/base/prefetch.h"
 #include "rhview/base/rounding.h"
-#include "rhview/gl/query_boxes.h"
+#include "rhview/pipeline/query_boxes.h"
 
 namespace rhview::gl {
 namespace {

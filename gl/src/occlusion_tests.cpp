@@ -9,7 +9,7 @@
 
 #include "raster_precision.h"
 #include "rhview/base/assert.h"
-#include "rhview/gl/query_boxes.h"
+#include "rhview/pipeline/query_boxes.h"
 
 namespace rhview::gl {
 

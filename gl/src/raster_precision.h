@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "rhview/gl/query_boxes.h"
+#include "rhview/pipeline/query_boxes.h"
 
 namespace rhview::gl {
 

@@ -23,6 +23,12 @@ ObjectLevels::ObjectLevels(std::span<const LodChain> chains, std::span<const Lev
     }
 }
 
+void ObjectLevels::set_object(ObjectId object, const LevelledObject& levelled) {
+    RHVIEW_ASSERT(levelled.chain == LevelledObject::kNoChain || levelled.chain < chains_.size());
+    if (index_of(object) >= objects_.size()) objects_.resize(index_of(object) + 1);
+    objects_[index_of(object)] = levelled;
+}
+
 /// Null: of full detail, always.
 const LevelledObject* ObjectLevels::find(ObjectId object) const {
     if (index_of(object) >= objects_.size()) return nullptr;

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The rhview authors
    SPDX-License-Identifier: MIT
 
-   An engine in C99: a wall, a thousand crates behind it and ten before it, two carts that drive, a camera and
-   a shadow map. The engine's renderer is replaced by one that counts, and that answers occlusion queries from
-   what it knows: the wall hides all that lies beyond it. */
+   An engine in C99: a wall, a thousand crates behind it and ten before it, two carts that drive, two round
+   lamps with levels of detail, a camera and a shadow map. The engine's renderer is replaced by one that
+   counts, and that answers occlusion queries from what it knows: the wall hides all that lies beyond it. */
 
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,15 @@
 
 #include <rhview/rhview.h>
 
-enum { CRATES = 1010, CARTS = 2, FRAMES = 40, MAX_QUERIES = 4096 };
+enum {
+    CRATES = 1010,
+    CARTS = 2,
+    LAMPS = 2,
+    THINGS = CARTS + LAMPS,
+    FRAMES = 40,
+    MAX_QUERIES = 4096,
+    RINGS = 24
+};
 static const float WALL_Z = -20.0f;
 
 typedef struct mesh {
@@ -46,6 +54,31 @@ static mesh make_yard(void) {
         const float crate_low[3] = {x, 0, z}, crate_high[3] = {x + 1, 1, z + 1};
         add_box(&m, crate_low, crate_high);
     }
+    return m;
+}
+
+/* A ball of radius 0.5. */
+static mesh make_lamp(void) {
+    mesh m = {0};
+    const uint32_t around = 2 * RINGS;
+    uint32_t ring, k;
+    m.positions = malloc(3 * sizeof(float) * (RINGS + 1) * around);
+    m.indices = malloc(6 * sizeof(uint32_t) * RINGS * around);
+    if (m.positions == NULL || m.indices == NULL) exit(2);
+    for (ring = 0; ring <= RINGS; ++ring)
+        for (k = 0; k < around; ++k, ++m.vertex_count) {
+            const double a = 3.14159265358979 * ring / RINGS, b = 3.14159265358979 * k / RINGS;
+            m.positions[3 * m.vertex_count] = (float)(0.5 * sin(a) * cos(b));
+            m.positions[3 * m.vertex_count + 1] = (float)(0.5 * cos(a));
+            m.positions[3 * m.vertex_count + 2] = (float)(0.5 * sin(a) * sin(b));
+        }
+    for (ring = 0; ring < RINGS; ++ring)
+        for (k = 0; k < around; ++k) {
+            const uint32_t next = (k + 1) % around, here = ring * around, below = here + around;
+            const uint32_t quad[6] = {here + k, here + next, below + k, here + next, below + next, below + k};
+            memcpy(m.indices + m.index_count, quad, sizeof quad);
+            m.index_count += 6;
+        }
     return m;
 }
 
@@ -85,6 +118,7 @@ typedef struct renderer {
     size_t draws, conditional_draws, indices, executed_indices;
     rhview_answer answers[MAX_QUERIES];
     size_t answer_count;
+    size_t lamp_indices;
 } renderer;
 
 static void draw(renderer* r, const rhview_draw* range) {
@@ -92,9 +126,10 @@ static void draw(renderer* r, const rhview_draw* range) {
     r->indices += range->index_count;
 }
 
-static void draw_object(renderer* r, const rhview_object_draw* object) {
-    (void)object;
+/* A lamp's level: which of the meshes is drawn. */
+static void draw_object(renderer* r, const rhview_object_draw* object, const rhview_chain* lamp) {
     ++r->draws;
+    if (object->object >= CARTS) r->lamp_indices += lamp->levels[object->level].index_count;
 }
 
 static void ask(renderer* r, const rhview_query* query, const rhview_box* boxes) {
@@ -113,10 +148,10 @@ static void draw_if_seen(renderer* r, uint32_t query, const rhview_draw* range) 
 
 /* [snippet] */
 /* What is drawn at once, then the questions against that depth, then what hangs on their answers. */
-static void execute(const rhview_plan* plan, renderer* r) {
+static void execute(const rhview_plan* plan, const rhview_chain* lamp, renderer* r) {
     size_t i;
     for (i = 0; i < plan->draw_count; ++i) draw(r, &plan->draws[i]);
-    for (i = 0; i < plan->object_count; ++i) draw_object(r, &plan->objects[i]);
+    for (i = 0; i < plan->object_count; ++i) draw_object(r, &plan->objects[i], lamp);
     for (i = 0; i < plan->query_count; ++i) ask(r, &plan->queries[i], plan->boxes);
     for (i = 0; i < plan->conditional_draw_count; ++i)
         draw_if_seen(r, plan->conditional_draws[i].query, &plan->conditional_draws[i].draw);
@@ -142,23 +177,53 @@ static rhview_costs costs_of_this_machine(void) {
     return costs;
 }
 
-/* Where a cart is: the first before the wall, the second far off. */
-static rhview_box cart_box(int cart, double time_s) {
+/* Where a cart is: the first before the wall, the second far off. And a lamp: one near, one at the wall. */
+static rhview_box box_of(uint32_t thing, double time_s) {
+    static const rhview_box lamps[LAMPS] = {{{1, 1, 4}, {2, 2, 5}}, {{4, 9, -19}, {5, 10, -18}}};
     rhview_box box = {{0, 0, -15}, {2, 1, -14}};
-    const float x = (float)(2.0 * time_s) + (cart == 0 ? 0.0f : 500.0f);
+    const float x = (float)(2.0 * time_s) + (thing == 0 ? 0.0f : 500.0f);
+    if (thing >= CARTS) return lamps[thing - CARTS];
     box.min[0] += x;
     box.max[0] += x;
     return box;
 }
 
-static rhview_scene* make_scene(const mesh* yard, const rhview_costs* costs, uint32_t carts[CARTS]) {
+/* Built here; an engine saves them with its meshes and loads them. */
+static rhview_chains* make_chains(const mesh* lamp) {
+    rhview_mesh source = {0};
+    rhview_chains* chains = NULL;
+    source.positions = lamp->positions;
+    source.vertex_count = lamp->vertex_count;
+    source.indices = lamp->indices;
+    source.index_count = lamp->index_count;
+    check(rhview_chains_build(&source, 1, NULL, &chains), "levels of detail");
+    return chains;
+}
+
+/* Carts, then lamps: the lowest free numbers are given, so theirs are 0 and on. */
+static void add_things(rhview_scene* scene, uint32_t lamp_index_count) {
+    uint32_t i;
+    for (i = 0; i < THINGS; ++i) {
+        rhview_object thing = {0};
+        uint32_t number = 0;
+        thing.size = sizeof thing;
+        thing.box = box_of(i, 0.0);
+        thing.index_count = i < CARTS ? 3000 : lamp_index_count;
+        thing.top_speed = i < CARTS ? 5 : 0.01;
+        thing.has_chain = i >= CARTS;
+        check(rhview_scene_add_object(scene, &thing, &number), "add an object");
+        if (number != i) exit(2);
+    }
+}
+
+static rhview_scene* make_scene(const mesh* yard, const rhview_costs* costs, const rhview_chains* chains) {
     rhview_scene_options options = {0};
     rhview_batch batch = {0};
     rhview_build_options build = {0};
     rhview_scene* scene = NULL;
-    int i;
     options.size = sizeof options;
-    options.max_objects = CARTS;
+    options.max_objects = THINGS;
+    options.chains = chains;
     check(rhview_scene_create(&options, &scene), "create");
     batch.size = sizeof batch;
     batch.positions = yard->positions;
@@ -169,14 +234,6 @@ static rhview_scene* make_scene(const mesh* yard, const rhview_costs* costs, uin
     build.size = sizeof build;
     build.costs = costs;
     check(rhview_scene_build(scene, &build), "build");
-    for (i = 0; i < CARTS; ++i) {
-        rhview_object cart = {0};
-        cart.size = sizeof cart;
-        cart.box = cart_box(i, 0.0);
-        cart.index_count = 3000;
-        cart.top_speed = 5;
-        check(rhview_scene_add_object(scene, &cart, &carts[i]), "add an object");
-    }
     return scene;
 }
 
@@ -193,31 +250,51 @@ static rhview_view* make_view(rhview_scene* scene, const rhview_costs* costs, ui
     return view;
 }
 
-/* Those that are due; how many. */
-static size_t move_carts(rhview_scene* scene, const uint32_t carts[CARTS], double time_s) {
+/* Those that are due; how many carts. */
+static size_t move_things(rhview_scene* scene, double time_s) {
     const uint32_t* due = NULL;
-    size_t count = 0, i;
+    size_t count = 0, carts = 0, i;
     check(rhview_scene_due_objects(scene, &due, &count), "due objects");
     for (i = 0; i < count; ++i) {
-        const rhview_box box = cart_box(due[i] == carts[0] ? 0 : 1, time_s);
+        const rhview_box box = box_of(due[i], time_s);
         check(rhview_scene_move_object(scene, due[i], &box), "move an object");
+        carts += due[i] < CARTS;
     }
-    return count;
+    return carts;
+}
+
+static rhview_object_state state_of(const rhview_view* view, uint32_t number) {
+    rhview_object_state state = {0};
+    state.size = sizeof state;
+    check(rhview_view_object_state(view, number, &state), "the state of an object");
+    return state;
 }
 
 int main(void) {
-    mesh yard = make_yard();
+    mesh yard = make_yard(), lamp = make_lamp();
     const rhview_costs costs = costs_of_this_machine();
-    uint32_t carts[CARTS];
-    rhview_scene* scene = make_scene(&yard, &costs, carts);
+    rhview_chains* chains = make_chains(&lamp);
+    rhview_scene* scene = make_scene(&yard, &costs, chains);
+    rhview_chain levels = {0};
+    rhview_level_bounds bounds = {0};
     rhview_view *views[2], *camera = NULL;
     const uint32_t* indices = NULL;
     size_t index_count = 0, moved = 0, first_indices = 0;
     renderer pictures = {0}, shadows = {0};
-    rhview_object_state cart = {0};
-    int frame;
+    rhview_object_state cart, near_lamp, far_lamp;
+    rhview_box_lens lens = {0};
+    const rhview_wide_box* wide_boxes = NULL;
+    size_t wide_count = 0;
+    int frame, all_widened = 1;
+    lens.size = sizeof lens;
     views[0] = camera = make_view(scene, &costs, RHVIEW_OCCLUSION_EXACT);
     views[1] = make_view(scene, &costs, RHVIEW_OCCLUSION_OFF);
+    levels.size = sizeof levels;
+    check(rhview_chains_get(chains, 0, &levels), "a chain"); /* upload its indices */
+    add_things(scene, lamp.index_count);
+    bounds.size = sizeof bounds;
+    bounds.max_error_px = 1.0;
+    check(rhview_view_set_levels(camera, &bounds), "bounds of levels");
     check(rhview_scene_indices(scene, &indices, &index_count), "indices"); /* upload them */
 
     for (frame = 0; frame < FRAMES; ++frame) {
@@ -226,37 +303,51 @@ int main(void) {
         rhview_plan plan = {0}, shadow_plan = {0};
         plan.size = shadow_plan.size = sizeof plan;
         check(rhview_scene_begin_frame(scene, time_s), "begin a frame");
-        moved += move_carts(scene, carts, time_s);
+        moved += move_things(scene, time_s);
         check(rhview_view_absorb(camera, pictures.answers, pictures.answer_count), "answers");
         check(rhview_view_set_camera(views[0], &eye), "camera");
         check(rhview_view_set_camera(views[1], &light), "sun");
         check(rhview_plan_views(views, 2, NULL), "plan");
         check(rhview_view_plan(views[0], &plan), "the camera's plan");
         check(rhview_view_plan(views[1], &shadow_plan), "the sun's plan");
+        check(rhview_view_widen_boxes(camera, NULL, &lens, &wide_boxes, &wide_count),
+              "wide boxes"); /* upload them: a query draws these, by the lens */
+        all_widened = all_widened && wide_count == plan.box_count;
         memset(&pictures, 0, sizeof pictures);
         memset(&shadows, 0, sizeof shadows);
-        execute(&plan, &pictures);
-        execute(&shadow_plan, &shadows);
+        execute(&plan, &levels, &pictures);
+        execute(&shadow_plan, &levels, &shadows);
         check(rhview_scene_end_frame(scene), "end a frame");
         if (frame == 0) first_indices = pictures.indices + pictures.executed_indices;
     }
 
-    cart.size = sizeof cart;
-    check(rhview_view_object_state(camera, carts[0], &cart), "the state of a cart");
+    cart = state_of(camera, 0);
+    near_lamp = state_of(camera, CARTS);
+    far_lamp = state_of(camera, CARTS + 1);
     printf("%s %lu of %lu indices drawn in the last frame, %lu in the first; %lu in the shadow map\n",
            rhview_version(), (unsigned long)(pictures.indices + pictures.executed_indices),
            (unsigned long)index_count, (unsigned long)first_indices, (unsigned long)shadows.indices);
     printf("carts moved %lu times in %d frames; the first was last seen in frame %lu, in band %u\n",
            (unsigned long)moved, FRAMES, (unsigned long)cart.last_seen_frame, (unsigned)cart.band);
 
+    printf("lamps at levels %u and %u of %lu: %lu of %lu indices, %lu in the shadow map\n",
+           (unsigned)near_lamp.level, (unsigned)far_lamp.level, (unsigned long)levels.level_count,
+           (unsigned long)pictures.lamp_indices, 2ul * lamp.index_count, (unsigned long)shadows.lamp_indices);
+
     rhview_view_destroy(views[0]);
     rhview_view_destroy(views[1]);
     rhview_scene_destroy(scene);
+    rhview_chains_destroy(chains);
     free(yard.positions);
     free(yard.indices);
-    /* Of what is behind the wall little is drawn, and the cart out of sight is seldom moved. */
+    free(lamp.positions);
+    free(lamp.indices);
+    /* Of what is behind the wall little is drawn, the cart out of sight is seldom moved, and the lamp at the
+       wall is drawn coarser than the near one, in the camera's picture alone. */
     return pictures.indices + pictures.executed_indices < index_count / 4 && shadows.indices >= 36 * 1000 &&
-                   cart.is_visible && cart.last_seen_frame == FRAMES - 1 && moved < FRAMES + FRAMES / 2
+                   cart.is_visible && cart.last_seen_frame == FRAMES - 1 && moved < FRAMES + FRAMES / 2 &&
+                   near_lamp.level < far_lamp.level && far_lamp.level < levels.level_count &&
+                   shadows.lamp_indices == 2 * lamp.index_count && all_widened
                ? 0
                : 1;
 }

@@ -76,7 +76,7 @@ bool nests_too_deep(std::string_view json) {
     return false;
 }
 
-/// What the file callbacks need: buffers are read from the file's own folder only, textures not at all.
+/// What the file callbacks need: buffers are read, by names relative to the file's folder; textures are not.
 struct FileAccess {
     const tinygltf::Model* model = nullptr;
     std::string folder;

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 
+#include "ball.h"
 #include "job_system.h"
 #include "town.h"
 
@@ -156,6 +157,73 @@ TEST(Allocator, is_not_asked_by_a_warm_view) {
     for (int i = 0; i < 3; ++i) EXPECT_OK(rhview_plan_views(&view, 1, nullptr));
     EXPECT_GT(plan_of(view).draw_count, 0u);
     EXPECT_EQ(memory.given, before);
+}
+
+/// A scene of objects with levels of detail, planned by a bound.
+rhview_status live_with_levels(rhview_chains*& chains, rhview_scene*& scene, rhview_view*& view) {
+    const Ball ball(8);
+    const rhview_mesh mesh = ball.mesh();
+    if (const auto status = rhview_chains_build(&mesh, 1, nullptr, &chains); status != RHVIEW_OK)
+        return status;
+    auto options = sized<rhview_scene_options>();
+    options.max_objects = 20;
+    options.chains = chains;
+    if (const auto status = rhview_scene_create(&options, &scene); status != RHVIEW_OK) return status;
+    if (const auto status = rhview_scene_build(scene, nullptr); status != RHVIEW_OK) return status;
+    for (std::uint32_t i = 0; i < options.max_objects; ++i) {
+        auto object = sized<rhview_object>();
+        const float x = 5.0f + 10.0f * static_cast<float>(i);
+        object.box = {{x - 1, -1, -1}, {x + 1, 1, 1}};
+        object.index_count = static_cast<std::uint32_t>(mesh.index_count);
+        object.has_chain = 1;
+        std::uint32_t number = 0;
+        if (const auto status = rhview_scene_add_object(scene, &object, &number); status != RHVIEW_OK)
+            return status;
+    }
+    if (const auto status = rhview_view_create(scene, nullptr, &view); status != RHVIEW_OK) return status;
+    const rhview_camera camera = camera_at(0.0);
+    if (const auto status = rhview_view_set_camera(view, &camera); status != RHVIEW_OK) return status;
+    auto bounds = sized<rhview_level_bounds>();
+    bounds.max_error_px = 2.0;
+    if (const auto status = rhview_view_set_levels(view, &bounds); status != RHVIEW_OK) return status;
+    return rhview_plan_views(&view, 1, nullptr);
+}
+
+TEST(Allocator, serves_levels_of_detail_and_is_not_asked_once_they_are_warm) {
+    Memory memory;
+    rhview_chains* chains = nullptr;
+    rhview_scene* scene = nullptr;
+    rhview_view* view = nullptr;
+    EXPECT_OK(live_with_levels(chains, scene, view));
+    EXPECT_OK(rhview_plan_views(&view, 1, nullptr));
+    const std::size_t before = memory.given;
+    for (int i = 0; i < 3; ++i) EXPECT_OK(rhview_plan_views(&view, 1, nullptr));
+    EXPECT_EQ(memory.given, before);
+    const rhview_plan plan = plan_of(view);
+    ASSERT_EQ(plan.object_count, 20u);
+    EXPECT_NE(plan.objects[0].level, plan.objects[19].level);
+    rhview_view_destroy(view);
+    rhview_scene_destroy(scene);
+    rhview_chains_destroy(chains);
+}
+
+TEST(Allocator, that_runs_out_while_levels_are_built_leaks_nothing) {
+    std::size_t failed = 0;
+    for (std::size_t fails_at = 0;; fails_at += 1 + fails_at / 8) {
+        Memory memory;
+        memory.fails_at = fails_at;
+        rhview_chains* chains = nullptr;
+        rhview_scene* scene = nullptr;
+        rhview_view* view = nullptr;
+        const rhview_status status = live_with_levels(chains, scene, view);
+        rhview_view_destroy(view);
+        rhview_scene_destroy(scene);
+        rhview_chains_destroy(chains);
+        if (status == RHVIEW_OK) break;
+        EXPECT_EQ(status, RHVIEW_OUT_OF_MEMORY) << "at " << fails_at << ": " << rhview_last_error();
+        ++failed;
+    }
+    EXPECT_GT(failed, 20u);
 }
 
 }  // namespace

@@ -151,6 +151,39 @@ TEST(WrongCalls, at_the_wrong_time_are_told) {
     rhview_scene_destroy(scene);
 }
 
+TEST(WrongCalls, about_boxes_are_told) {
+    Town town;
+    rhview_view* view = town.add_view(RHVIEW_OCCLUSION_EXACT);
+    ASSERT_OK(town.status());
+    auto lens = sized<rhview_box_lens>();
+    auto raster = sized<rhview_raster>();
+    const rhview_wide_box* boxes = nullptr;
+    std::size_t count = 0;
+    EXPECT_EQ(rhview_view_widen_boxes(view, nullptr, &lens, &boxes, &count), RHVIEW_WRONG_STATE);
+    ASSERT_OK(rhview_plan_views(&view, 1, nullptr));
+    EXPECT_EQ(rhview_view_widen_boxes(nullptr, nullptr, &lens, &boxes, &count), RHVIEW_INVALID_ARGUMENT);
+    EXPECT_EQ(rhview_view_widen_boxes(view, nullptr, nullptr, &boxes, &count), RHVIEW_INVALID_ARGUMENT);
+    EXPECT_EQ(rhview_view_widen_boxes(view, nullptr, &lens, nullptr, &count), RHVIEW_INVALID_ARGUMENT);
+    EXPECT_EQ(rhview_view_widen_boxes(view, nullptr, &lens, &boxes, nullptr), RHVIEW_INVALID_ARGUMENT);
+    raster.subpixel_bits = 17;
+    EXPECT_EQ(rhview_view_widen_boxes(view, &raster, &lens, &boxes, &count), RHVIEW_INVALID_ARGUMENT);
+    for (const double wrong : {-1.0, 2.0, kNan}) {
+        raster = sized<rhview_raster>();
+        raster.depth_step = wrong;
+        EXPECT_EQ(rhview_view_widen_boxes(view, &raster, &lens, &boxes, &count), RHVIEW_INVALID_ARGUMENT);
+    }
+    for (const double wrong : {-1.0, 0.5, kNan, std::numeric_limits<double>::infinity()}) {
+        raster = sized<rhview_raster>();
+        raster.rounding_growth = wrong;
+        EXPECT_EQ(rhview_view_widen_boxes(view, &raster, &lens, &boxes, &count), RHVIEW_INVALID_ARGUMENT);
+    }
+    lens.size = 3;
+    EXPECT_EQ(rhview_view_widen_boxes(view, nullptr, &lens, &boxes, &count), RHVIEW_INVALID_ARGUMENT);
+    lens = sized<rhview_box_lens>();
+    EXPECT_OK(rhview_view_widen_boxes(view, nullptr, &lens, &boxes, &count));
+    EXPECT_EQ(count, plan_of(view).box_count);
+}
+
 TEST(WrongCalls, with_the_views_of_two_scenes_or_one_twice_are_told) {
     Town one, other;
     rhview_view* views[] = {one.add_view(RHVIEW_OCCLUSION_OFF), other.add_view(RHVIEW_OCCLUSION_OFF)};

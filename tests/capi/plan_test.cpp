@@ -7,6 +7,7 @@
 #include <span>
 
 #include "job_system.h"
+#include "rhview/pipeline/query_boxes.h"
 #include "rhview/pipeline/rhview_planner.h"
 #include "town.h"
 
@@ -27,13 +28,14 @@ class Twin {
     }
 
     const FramePlan& frame(double angle) {
-        const rhview_camera camera = camera_at(angle);
+        const rhview_camera given = camera_at(angle);
         FrameInput input;
         for (int i = 0; i < 16; ++i) {
-            input.culling_view.camera_from_world[i / 4][i % 4] = camera.camera_from_world[i];
-            input.culling_view.clip_from_camera[i / 4][i % 4] = camera.clip_from_camera[i];
+            input.culling_view.camera_from_world[i / 4][i % 4] = given.camera_from_world[i];
+            input.culling_view.clip_from_camera[i / 4][i % 4] = given.clip_from_camera[i];
         }
         input.culling_view.clip_depth = ClipDepth::ReversedZeroToOne;
+        camera = input.culling_view;
         planner->plan(input, plan);
         return plan;
     }
@@ -48,6 +50,7 @@ class Twin {
     RhOctree octree;
     std::optional<RhviewPlanner> planner;
     FramePlan plan;
+    View camera;
 };
 
 void expect_equal(const rhview_plan& c, const FramePlan& plan) {
@@ -122,6 +125,59 @@ TEST(Plan, with_queries_is_that_of_the_planner_in_cpp_whatever_the_answers) {
     }
     EXPECT_GT(asked, 0u);
     EXPECT_GT(conditional, 0u);
+}
+
+void expect_wide_boxes_of_cpp(rhview_view* view, const FramePlan& plan, const View& camera) {
+    auto raster = sized<rhview_raster>();
+    raster.subpixel_bits = 4;
+    raster.depth_step = 0x1p-24;
+    raster.rounding_growth = 1.5;
+    auto lens = sized<rhview_box_lens>();
+    const rhview_wide_box* boxes = nullptr;
+    std::size_t count = 0;
+    ASSERT_OK(rhview_view_widen_boxes(view, &raster, &lens, &boxes, &count));
+    const BoxWidener widener(camera, glm::dvec3(0.0), {1280, 720, 4, 0x1p-24}, 1.5);
+    ASSERT_EQ(count, plan.query_boxes.size());
+    for (std::uint32_t q = 0; q < plan.queries.size(); ++q)
+        for (std::uint32_t b = 0; b < plan.queries[q].box_count; ++b) {
+            const rhview_wide_box& box = boxes[plan.queries[q].first_box + b];
+            const BoxInstance expected = widener.widen(plan.query_boxes[plan.queries[q].first_box + b], q);
+            EXPECT_EQ(glm::vec3(box.low[0], box.low[1], box.low[2]), expected.low);
+            EXPECT_EQ(glm::vec3(box.high[0], box.high[1], box.high[2]), expected.high);
+            EXPECT_EQ(box.shift, expected.shift);
+            EXPECT_EQ(box.faces, expected.faces_and_slot);
+        }
+    for (int i = 0; i < 16; ++i)
+        EXPECT_EQ(lens.clip_from_relative[i], widener.clip_from_relative()[i / 4][i % 4]);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(lens.depth_error[i], widener.depth_error()[i]);
+    EXPECT_EQ(lens.nearer, widener.nearer());
+    EXPECT_EQ(lens.nearest, widener.nearest());
+}
+
+TEST(Plan, has_its_boxes_widened_as_in_cpp) {
+    Town town;
+    Twin twin(town, true);
+    rhview_view* view = town.add_view(RHVIEW_OCCLUSION_EXACT);
+    ASSERT_OK(town.status());
+    std::size_t boxes = 0;
+    for (int i = 0; i < 40; ++i) {
+        const rhview_camera camera = camera_at(0.01 * i), later = camera_at(0.5);
+        ASSERT_OK(rhview_view_set_camera(view, &camera));
+        ASSERT_OK(rhview_plan_views(&view, 1, nullptr));
+        ASSERT_OK(rhview_view_set_camera(view, &later));  // of the next plan
+        const FramePlan& plan = twin.frame(0.01 * i);
+        expect_wide_boxes_of_cpp(view, plan, twin.camera);
+        std::vector<QueryAnswer> answers;
+        std::vector<rhview_answer> c_answers;
+        for (const PlannedQuery& query : plan.queries) {
+            answers.push_back({query.ticket, false, 0});
+            c_answers.push_back({query.ticket, 0, 0});
+        }
+        twin.planner->absorb(answers);
+        ASSERT_OK(rhview_view_absorb(view, c_answers.data(), c_answers.size()));
+        boxes += plan.query_boxes.size();
+    }
+    EXPECT_GT(boxes, 50u);
 }
 
 TEST(Plan, of_many_views_is_that_of_each_on_any_threads) {

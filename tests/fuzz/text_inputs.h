@@ -81,6 +81,8 @@ inline bool use_scene_file(std::string_view bytes, const char* extension) {
         return made;
     }();
     const std::filesystem::path file = folder / (std::string("scene.") + extension);
+    // Some file systems write a truncated file through to the disk, which makes thousands of them slow.
+    std::filesystem::remove(file);
     {
         std::ofstream stream(file, std::ios::binary);
         stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -11,6 +11,7 @@
 #include "fake_gpu.h"
 #include "rhview/pipeline/moving_objects.h"
 #include "rhview/pipeline/rhview_planner.h"
+#include "seen_before_wall.h"
 #include "uniform.h"
 
 namespace rhview {
@@ -52,11 +53,7 @@ class WalledSquare {
             objects_.describe(input);
             planner_.absorb(gpu_.next_frame());
             planner_.plan(input, plan_);
-            for (const PlannedQuery& query : plan_.queries) {
-                const auto boxes = std::span(plan_.query_boxes).subspan(query.first_box, query.box_count);
-                gpu_.ask({query.ticket,
-                          std::ranges::any_of(boxes, [](const Aabb& box) { return box.min.x < 20.0f; }), 1});
-            }
+            ask_before_wall(plan_, gpu_);
             objects_.end_frame(plan_);
         }
         return static_cast<double>(touched) / (kFrames - kFrames / 2);

@@ -14,6 +14,7 @@
 #include "fake_gpu.h"
 #include "rhview/base/assert.h"
 #include "rhview/pipeline/rhview_planner.h"
+#include "seen_before_wall.h"
 #include "uniform.h"
 
 namespace rhview {
@@ -273,11 +274,7 @@ class RandomWorld {
         objects_.describe(input);
         planner_.absorb(gpu_.next_frame());
         planner_.plan(input, plan_);
-        for (const PlannedQuery& query : plan_.queries) {
-            const auto boxes = std::span(plan_.query_boxes).subspan(query.first_box, query.box_count);
-            gpu_.ask({query.ticket,
-                      std::ranges::any_of(boxes, [](const Aabb& box) { return box.min.x < 20.0f; }), 1});
-        }
+        ask_before_wall(plan_, gpu_);
         check(make_frustum(input.culling_view));
         objects_.end_frame(plan_);
         for (auto& [object, state] : alive_) state.left = kSpeed * kStep * 0.999;

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
-#include <set>
 
+#include "draw_list_price.h"
 #include "fake_gpu.h"
 #include "property_scene.h"
 #include "rhview/pipeline/rhview_planner.h"
@@ -45,16 +45,6 @@ std::optional<OcclusionOptions> occlusion_of(const PropertyCase& property) {
     options.costs = {{.query_ns = 3.0 * property.query_ns, .box_ns = 1.0, .draw_ns = 8.0},
                      {.query_ns = property.query_ns, .box_ns = 3.0, .draw_ns = 6.0}};
     return options;
-}
-
-double price(std::span<const DrawRange> ranges, const DrawCosts& costs) {
-    double total_ns = 0.0;
-    std::set<BatchId> batches;
-    for (const DrawRange& range : ranges) {
-        total_ns += costs.draw_ns + costs.index_ns * range.index_count;
-        batches.insert(range.batch);
-    }
-    return total_ns + costs.call_ns * static_cast<double>(batches.size());
 }
 
 /// Nodes that hold all that may be in view: each is drawn whole or divided, at random.

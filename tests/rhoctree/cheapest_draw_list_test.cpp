@@ -13,6 +13,7 @@
 #include <set>
 
 #include "balls.h"
+#include "draw_list_price.h"
 #include "random_geometry.h"
 #include "rhview/rhoctree/draw_list.h"
 #include "rhview/rhoctree/normal_clusters.h"
@@ -36,16 +37,6 @@ OctreeOptions options_of(std::uint32_t leaf, std::uint32_t record, double budget
     options.replica_budget = budget;
     options.costs = costs;
     return options;
-}
-
-double price(std::span<const DrawRange> ranges, const DrawCosts& costs) {
-    double total_ns = 0.0;
-    std::set<BatchId> batches;
-    for (const DrawRange& range : ranges) {
-        total_ns += costs.draw_ns + costs.index_ns * range.index_count;
-        batches.insert(range.batch);
-    }
-    return total_ns + costs.call_ns * static_cast<double>(batches.size());
 }
 
 /// C[i][o]: the least cost to get past something when a base range is open (1) or not (0) before and after.

@@ -8,7 +8,8 @@
  *
  * Order of the calls:
  *
- *     once       rhview_scene_create   rhview_scene_add_batch…   rhview_scene_build
+ *     once       rhview_chains_build (where objects have levels of detail)
+ *                rhview_scene_create   rhview_scene_add_batch…   rhview_scene_build
  *                upload rhview_scene_indices   rhview_view_create (one per camera)
  *     a frame    rhview_scene_begin_frame   rhview_scene_move_object (of those that are due)
  *                rhview_view_absorb, rhview_view_set_camera (each view)   rhview_plan_views
@@ -49,7 +50,7 @@ extern "C" {
 #endif
 
 /** Counts up with every function and field added to this header. The soname changes with what is removed. */
-#define RHVIEW_C_API_VERSION 1u
+#define RHVIEW_C_API_VERSION 2u
 
 /** `rhview_object_state::last_seen_frame` of an object that was never seen. */
 #define RHVIEW_NEVER UINT64_MAX
@@ -137,19 +138,84 @@ RHVIEW_API rhview_status rhview_costs_load(const char* file, uint32_t is_multi_d
 RHVIEW_API rhview_status rhview_costs_fit(const rhview_frame_sample* samples, size_t count,
                                           rhview_costs* costs);
 
+/* Levels of detail --------------------------------------------------------------------------------------- */
+
+/** Chains of levels of detail, one per mesh of moving objects. */
+typedef struct rhview_chains rhview_chains;
+
+/** A mesh in its own space. The arrays are read until the call returns. */
+typedef struct rhview_mesh {
+    const float* positions; /**< x, y, z */
+    size_t position_stride; /**< bytes from one to the next; 0: 12. Others cost a copy */
+    size_t vertex_count;
+    const void* indices; /**< three per triangle */
+    size_t index_count;
+    uint32_t index_bytes; /**< 2 or 4; 0 is 4 */
+    uint32_t reserved;
+} rhview_mesh;
+
+/** How many levels, how they end, and which threads make them. */
+typedef struct rhview_chain_options {
+    size_t size;
+    double ratio;                  /**< of a level's indices to those of the one before, 0.1 to 0.8; 0: 0.5 */
+    uint32_t min_triangles;        /**< no level is asked to get smaller; 0: 32 */
+    uint32_t locks_borders;        /**< not 0: edges of one triangle stay, so that neighbours keep fitting */
+    uint32_t forbids_sloppy;       /**< not 0: rather no level than one that ignores topology */
+    const rhview_workers* workers; /**< null: the calling thread */
+    /** As that of `rhview_build_options`. */
+    int32_t (*progress)(void* user, double share);
+    void* progress_user;
+} rhview_chain_options;
+
+/** A way of drawing a mesh. */
+typedef struct rhview_level {
+    uint32_t first_index; /**< level 0: into the mesh's indices; others: into `rhview_chain::indices` */
+    uint32_t index_count;
+    float error;        /**< proven: no point of level and mesh is farther from the other; in mesh units */
+    uint32_t is_sloppy; /**< not 0: it ignores topology */
+} rhview_level;
+
+/** One mesh's levels; valid as long as the chains. */
+typedef struct rhview_chain {
+    size_t size;
+    const rhview_level* levels; /**< the finest first: the mesh itself */
+    size_t level_count;
+    const uint32_t* indices; /**< of level 1 and on, to upload; values are into the mesh's vertices */
+    size_t index_count;
+    uint64_t vertex_count; /**< of the mesh: to see that a loaded chain is this mesh's */
+    const char* end;       /**< why there is no further level: the end of a sentence */
+} rhview_chain;
+
+/** One chain per mesh, in their order; `options` may be null. What cannot be simplified keeps level 0 alone.
+    RHVIEW_INVALID_DATA names the mesh. */
+RHVIEW_API rhview_status rhview_chains_build(const rhview_mesh* meshes, size_t count,
+                                             const rhview_chain_options* options, rhview_chains** chains);
+/** From a file that `rhview_chains_save` or `rhview bake` wrote. RHVIEW_INVALID_DATA: the sentence names
+    file, place and mend. */
+RHVIEW_API rhview_status rhview_chains_load(const char* file, rhview_chains** chains);
+/** Whole or not at all: an old file is replaced when the new one is complete. */
+RHVIEW_API rhview_status rhview_chains_save(const rhview_chains* chains, const char* file);
+/** Null is allowed. Scenes that were given them keep what they need. */
+RHVIEW_API void rhview_chains_destroy(rhview_chains* chains);
+/** RHVIEW_INVALID_ARGUMENT: `number` is not below their count. */
+RHVIEW_API rhview_status rhview_chains_get(const rhview_chains* chains, uint32_t number, rhview_chain* chain);
+
 /* The scene ---------------------------------------------------------------------------------------------- */
 
 /** Static triangles, and the objects that move among them. */
 typedef struct rhview_scene rhview_scene;
 
+/** An axis-aligned box, both ends included. */
 typedef struct rhview_box {
     float min[3], max[3]; /**< in the scene's coordinates */
 } rhview_box;
 
+/** Where the scene lies, and how many objects it has at most. */
 typedef struct rhview_scene_options {
     size_t size;
-    double origin[3];     /**< world position of the zero of every vertex and box */
-    uint32_t max_objects; /**< at a time */
+    double origin[3];            /**< world position of the zero of every vertex and box */
+    uint32_t max_objects;        /**< at a time */
+    const rhview_chains* chains; /**< of its objects; may be null. Since version 2 */
 } rhview_scene_options;
 
 /** Triangles of one material in one vertex buffer. The arrays are read until `rhview_scene_build` returns. */
@@ -164,6 +230,7 @@ typedef struct rhview_batch {
     uint32_t is_two_sided; /**< not 0: drawn from behind too */
 } rhview_batch;
 
+/** How fine to build, with which threads, and who is told how far it is. */
 typedef struct rhview_build_options {
     size_t size;
     const rhview_costs* costs;   /**< decides the granularity; null: a desktop GPU's */
@@ -192,14 +259,22 @@ RHVIEW_API rhview_status rhview_scene_indices(const rhview_scene* scene, const u
 
 /* Moving objects ----------------------------------------------------------------------------------------- */
 
+/** Something that moves: what the library has to know of it. */
 typedef struct rhview_object {
     size_t size;
     rhview_box box;       /**< holds all that is drawn of it */
-    uint32_t index_count; /**< that drawing it takes; 0: it is never asked about */
+    uint32_t index_count; /**< that drawing it takes, at full detail; 0: it is never asked about */
     uint32_t group;       /**< small numbers: objects of one can share an instanced call */
     /** No point of it moves faster, units per second: then it need not be moved while it is not seen. 0: no
         promise, it is moved in every frame. */
     double top_speed;
+    uint32_t has_chain; /**< not 0: its mesh has levels of detail, those of `chain`. Since version 2 */
+    uint32_t chain;     /**< into the scene's chains */
+    double scale;       /**< the longest that a unit of its mesh can be in the scene; 0 is 1 */
+    uint32_t has_range; /**< not 0: nothing of it is ever outside `range`. Hidden with it, and with a top
+                           speed, it need not be moved at all. Since version 2 */
+    rhview_box range;   /**< a room, a court, all of a closed way */
+    uint32_t reserved;
 } rhview_object;
 
 /** `number`: the lowest that is free, below `max_objects`. RHVIEW_WRONG_STATE: there are as many. */
@@ -241,6 +316,7 @@ enum {
     RHVIEW_DEPTH_REVERSED = 2             /**< near 1, far 0; the far plane may be at infinity */
 };
 
+/** What a view plans by. */
 typedef struct rhview_view_options {
     size_t size;
     const rhview_costs* costs; /**< null: a desktop GPU's, without queries */
@@ -250,6 +326,7 @@ typedef struct rhview_view_options {
     double band_hysteresis;    /**< share of its end that a band is left late by, 0 to 1 */
 } rhview_view_options;
 
+/** A camera in double precision. */
 typedef struct rhview_camera {
     size_t size;
     double camera_from_world[16];             /**< columns; rotation and translation, as a rule */
@@ -263,6 +340,16 @@ RHVIEW_API rhview_status rhview_view_create(rhview_scene* scene, const rhview_vi
                                             rhview_view** view);
 /** Null is allowed. */
 RHVIEW_API void rhview_view_destroy(rhview_view* view);
+/** What levels may cost: error in the picture, or time. */
+typedef struct rhview_level_bounds {
+    size_t size;
+    double max_error_px; /**< of an object in the picture; 0: full detail, unless the budget forbids it */
+    double budget_ns;    /**< what the objects drawn at once may cost together; 0: anything */
+    double object_ns;    /**< what an object costs whatever its level; indices and draws cost the view's */
+} rhview_level_bounds;
+
+/** The levels of objects in the next plans; null: full detail, as at first. */
+RHVIEW_API rhview_status rhview_view_set_levels(rhview_view* view, const rhview_level_bounds* bounds);
 /** For the next plans. RHVIEW_INVALID_DATA: no such camera can be. */
 RHVIEW_API rhview_status rhview_view_set_camera(rhview_view* view, const rhview_camera* camera);
 /** Plans views of one scene, each once, on `workers` (null: the calling thread). The plans are those of
@@ -272,12 +359,14 @@ RHVIEW_API rhview_status rhview_plan_views(rhview_view* const* views, size_t cou
 
 /* The plan ----------------------------------------------------------------------------------------------- */
 
+/** A range of the index buffer, drawn with one batch's state. */
 typedef struct rhview_draw {
     uint32_t batch;
     uint32_t first_index; /**< into `rhview_scene_indices` */
     uint32_t index_count;
 } rhview_draw;
 
+/** An object to draw whole. */
 typedef struct rhview_object_draw {
     uint32_t object;
     uint32_t level; /**< of detail; 0 is all of it */
@@ -307,7 +396,8 @@ typedef struct rhview_conditional_object {
 
 /**
  * What to do in this order: `draws` and `objects`; the boxes of `queries` against that depth, without writing
- * colour or depth, from both sides, and widened by what your transform and rasteriser round (an engine
+ * colour or depth, from both sides, and widened by what your transform and rasteriser round
+ * (`rhview_view_widen_boxes` does it; an engine
  * that cannot ask draws everything instead); `conditional_draws` and `conditional_objects`, each if its query
  * saw something. Draws of a batch stand together where that does not cost overdraw.
  */
@@ -328,6 +418,12 @@ typedef struct rhview_plan {
     double predicted_ns;    /**< by the costs, without the objects */
     uint64_t hash;          /**< equal plans have equal ones on every machine */
     uint64_t nodes_visited; /**< of the octree, to plan it */
+    /* Of the objects drawn at once that have chains, if the view has bounds for levels. Since version 2. */
+    double level_error_px;  /**< the largest in the picture; infinite where nothing bounds it */
+    double level_ns;        /**< what they cost */
+    uint64_t level_indices; /**< what they draw */
+    uint32_t misses_bound;  /**< not 0: `level_error_px` is above the bound, for the budget's sake */
+    uint32_t misses_budget; /**< not 0: not even the coarsest levels are within it */
 } rhview_plan;
 
 /** An answer to a query, some frames later; `ticket` as in the plan. */
@@ -339,6 +435,47 @@ typedef struct rhview_answer {
 
 /** The last plan of the view; its arrays are valid until the view is planned again or destroyed. */
 RHVIEW_API rhview_status rhview_view_plan(const rhview_view* view, rhview_plan* plan);
+
+/** What the picture's rasteriser rounds to; its depth range is [0, 1]. */
+typedef struct rhview_raster {
+    size_t size;
+    uint32_t subpixel_bits; /**< of a pixel, that vertices are moved to; 0: 8 */
+    double depth_step;      /**< of a fixed-point depth buffer, 2 to the minus its bits; 0: floating point */
+    /** By how much more clip coordinates of objects err than those of static triangles; 0: 3, enough for
+        turned, moved and scaled ones, not for sheared ones. */
+    double rounding_growth;
+} rhview_raster;
+
+/** How the widened boxes are drawn: all in float, depth clamped instead of clipped. */
+typedef struct rhview_box_lens {
+    size_t size;
+    float clip_from_relative[16]; /**< columns; of positions relative to the eye */
+    float eye_high[3];            /**< the scene's coordinates: a vertex v of the scene is drawn at */
+    float eye_low[3];             /**< (v - eye_high) - eye_low */
+    float depth_error[4];
+    float nearer;  /**< to the clip z of a corner p add nearer · (depth_error · (|p|, 1) + shift · w) */
+    float nearest; /**< clip z of a cover, at w = 1 */
+} rhview_box_lens;
+
+/** A box as a vertex shader takes it: 32 bytes. */
+typedef struct rhview_wide_box {
+    float low[3]; /**< relative to the eye */
+    float shift;
+    float high[3];
+    /** Bits 2a and 2a + 1: the face to draw across axis a (0 none, 1 low, 2 high). Bit 6: draw the whole
+        picture instead, at `nearest`. From bit 8 on: the number of the query. */
+    uint32_t faces;
+} rhview_wide_box;
+
+/**
+ * The plan's boxes widened so that one which is not seen proves that nothing in it would be: also what
+ * rounding moves, by half a grid step of the rasteriser as by the last bit of a depth. Valid for renderers
+ * that draw vertices by `lens` too. One per `rhview_plan::boxes`, until the view is planned again or
+ * destroyed. `raster` may be null. RHVIEW_WRONG_STATE: not planned yet. About 60 ns a box.
+ */
+RHVIEW_API rhview_status rhview_view_widen_boxes(rhview_view* view, const rhview_raster* raster,
+                                                 rhview_box_lens* lens, const rhview_wide_box** boxes,
+                                                 size_t* count);
 /** Answers to queries of earlier plans, in any order, as they come; of those not given within 16 frames it
     is assumed that something was seen. Unknown tickets are ignored. */
 RHVIEW_API rhview_status rhview_view_absorb(rhview_view* view, const rhview_answer* answers, size_t count);
@@ -354,6 +491,7 @@ typedef struct rhview_changes {
     size_t became_hidden_count;
 } rhview_changes;
 
+/** Of one object in one view. */
 typedef struct rhview_object_state {
     size_t size;
     uint64_t last_seen_frame; /**< plans of this view before the one that showed it last; RHVIEW_NEVER */

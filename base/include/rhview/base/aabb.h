@@ -21,10 +21,12 @@ struct Aabb {
     [[nodiscard]] glm::vec3 centre() const { return 0.5f * min + 0.5f * max; }
     [[nodiscard]] glm::vec3 extent() const { return max - min; }
 
+    /// To the smallest box that holds `point` too.
     void grow(const glm::vec3& point) {
         min = glm::min(min, point);
         max = glm::max(max, point);
     }
+    /// To the smallest box that holds all of `box` too; an empty one changes nothing.
     void grow(const Aabb& box) {
         min = glm::min(min, box.min);
         max = glm::max(max, box.max);

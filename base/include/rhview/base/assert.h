@@ -20,6 +20,7 @@ void report_assert(const char* condition, const char* file, int line);
 }  // namespace rhview
 
 #ifndef RHVIEW_ENABLE_ASSERTS
+/// 1: broken contracts are looked for. The build sets it in Debug and RelWithDebInfo.
 #define RHVIEW_ENABLE_ASSERTS 0
 #endif
 

@@ -11,11 +11,16 @@
 
 namespace rhview {
 
-enum class MaterialId : std::uint32_t {};  ///< what the engine binds together: shader, textures, state
-enum class BatchId : std::uint32_t {};     ///< static triangles of one material in one vertex format
-enum class NodeId : std::uint32_t {};      ///< a node of the octree
-enum class ObjectId : std::uint32_t {};    ///< an object the application places
-enum class MeshId : std::uint32_t {};      ///< a mesh that objects share
+/// What the engine binds together: shader, textures, state.
+enum class MaterialId : std::uint32_t {};
+/// Static triangles of one material in one vertex format.
+enum class BatchId : std::uint32_t {};
+/// A node of the octree.
+enum class NodeId : std::uint32_t {};
+/// An object that the application places.
+enum class ObjectId : std::uint32_t {};
+/// A mesh that objects share.
+enum class MeshId : std::uint32_t {};
 
 /// The id's place in its array.
 template <class Id>

@@ -9,8 +9,10 @@
 
 namespace rhview {
 
+/// How much a message matters; the least first.
 enum class LogLevel { Debug, Info, Warning, Error };
 
+/// Takes a sentence, which is valid during the call.
 using LogCallback = void (*)(LogLevel level, std::string_view message);
 
 /// Sets the callback (null: messages are dropped, the default) and returns the one before.

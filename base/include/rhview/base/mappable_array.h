@@ -19,6 +19,7 @@ namespace rhview {
 template <class T>
 class MappableArray {
   public:
+    /// As containers name it.
     using value_type = T;
 
     MappableArray() = default;

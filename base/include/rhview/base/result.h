@@ -18,6 +18,7 @@ struct Error {
     std::string message;
 };
 
+/// A `T`, or an `Error`: whoever calls has to look which.
 template <class T>
 class [[nodiscard]] Result {
   public:
@@ -54,6 +55,7 @@ class [[nodiscard]] Result {
 
 /// A success that carries nothing.
 using Status = Result<std::monostate>;
+/// The `Status` of what went well.
 inline Status success() {
     return std::monostate{};
 }

@@ -32,6 +32,7 @@ consteval SectionTag section_tag(const char (&letters)[5]) {
     return {letters[0], letters[1], letters[2], letters[3]};
 }
 
+/// An open baked file: its sections, found by tag. Copies share the mapped bytes.
 class RhoFile {
   public:
     /// The format's version that is written, and the newest that is read.

@@ -14,6 +14,7 @@ namespace rhview {
 
 /// The nearest float.
 float nearest_float(double value);
+/// The same of each coordinate.
 glm::vec3 nearest_float(const glm::dvec3& value);
 
 /// A position as two floats: `high` is nearest to it, `low` to what that leaves. Relative error 2^-48.
@@ -21,6 +22,7 @@ struct SplitPosition {
     glm::vec3 high{0.0f};
     glm::vec3 low{0.0f};
 };
+/// The two floats of `position`; finite.
 SplitPosition split_position(const glm::dvec3& position);
 
 }  // namespace rhview

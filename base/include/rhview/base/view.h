@@ -19,6 +19,7 @@ enum class ClipDepth {
     ReversedZeroToOne,  ///< near 1, far 0; the far plane may be at infinity
 };
 
+/// A camera. `validate` says whether it can be used; what takes one relies on that.
 struct View {
     glm::dmat4 camera_from_world{1.0};  ///< affine; rotation and translation, as a rule
     glm::dmat4 clip_from_camera{1.0};   ///< perspective, orthographic or oblique

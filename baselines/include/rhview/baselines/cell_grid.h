@@ -25,9 +25,11 @@ struct CellBox {
     glm::ivec3 max{-1};
 
     [[nodiscard]] bool is_empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
+    /// Whether `cell` is one of the box's.
     [[nodiscard]] bool contains(const glm::ivec3& cell) const;
 };
 
+/// A box cut into equal cells, numbered along x first, then y, then z.
 class CellGrid {
   public:
     CellGrid() = default;
@@ -36,22 +38,28 @@ class CellGrid {
 
     [[nodiscard]] const glm::ivec3& cells() const { return cells_; }
     [[nodiscard]] const glm::dvec3& cell_size() const { return cell_size_; }
+    /// Of the whole grid.
     [[nodiscard]] std::size_t cell_count() const;
+    /// The number of a cell of the grid.
     [[nodiscard]] std::size_t index(const glm::ivec3& cell) const {
         return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(cells_.y) +
                 static_cast<std::size_t>(cell.y)) *
                    static_cast<std::size_t>(cells_.x) +
                static_cast<std::size_t>(cell.x);
     }
+    /// The cell of that number: the inverse of `index`.
     [[nodiscard]] glm::ivec3 cell_at(std::size_t index) const;
+    /// A scene position in units of cells, from the grid's low corner.
     [[nodiscard]] glm::dvec3 to_cells(const glm::dvec3& position) const {
         return (position - origin_) / cell_size_;
     }
+    /// The inverse of `to_cells`.
     [[nodiscard]] glm::dvec3 from_cells(const glm::dvec3& position) const {
         return position * cell_size_ + origin_;
     }
     /// All cells that `box` may touch, also those that the grid does not have.
     [[nodiscard]] CellBox touched(const Aabb& box) const;
+    /// What of `box` is in the grid; empty if nothing is.
     [[nodiscard]] CellBox clipped(const CellBox& box) const;
     /// Whether the grid has all of `box`.
     [[nodiscard]] bool holds(const CellBox& box) const;
@@ -84,13 +92,16 @@ constexpr SlabAxes slab_axes(int axis) {
 class CellSet {
   public:
     CellSet() = default;
+    /// The empty set of a grid of so many cells.
     explicit CellSet(const glm::ivec3& cells);
 
     void insert(const glm::ivec3& cell) { change(cell, true); }
     void erase(const glm::ivec3& cell) { change(cell, false); }
+    /// Whether `cell`, of the grid, was inserted.
     [[nodiscard]] bool contains(const glm::ivec3& cell) const;
     /// The row at `v` of a slab; the bit of `u` is bit u % 64 of word u / 64.
     [[nodiscard]] std::span<const std::uint64_t> row(int axis, int slab, int v) const;
+    /// Takes all cells out and keeps the memory.
     void clear();
 
   private:

@@ -18,6 +18,7 @@ namespace rhview {
 /// once: its answer only says whether it will be next time.
 class Chc final : public InteractiveMethod {
   public:
+    /// For one view; it remembers what was visible.
     explicit Chc(CullTree tree);
     ~Chc() override;
 

@@ -20,6 +20,7 @@ enum class VisibleQuery {
     Box,       ///< its box, after the frame's other queries were asked
 };
 
+/// The paper's parameters; where it gives a range the default lies in it.
 struct ChcPlusPlusOptions {
     std::uint32_t batch = 50;  ///< previously hidden nodes that are asked about together; paper: 20–80
     std::uint32_t visible_frames = 10;  ///< n_av, for which a visible leaf is taken to stay so; paper: 5–10
@@ -36,6 +37,7 @@ struct ChcPlusPlusOptions {
 /// waits for the next batch and is sorted by material. Any sample is enough to be visible.
 class ChcPlusPlus final : public InteractiveMethod {
   public:
+    /// For one view; it remembers what was visible.
     explicit ChcPlusPlus(CullTree tree, const ChcPlusPlusOptions& options = {});
     ~ChcPlusPlus() override;
 

@@ -37,6 +37,7 @@ struct TightBounds {
     std::uint32_t most_boxes = 16;
 };
 
+/// Nodes in depth-first order over static triangles, with the moving objects beside.
 class CullTree {
   public:
     /// The octree's nodes; only leaves are drawn. The octree may go afterwards.
@@ -55,6 +56,7 @@ class CullTree {
     /// Node 0 is the root: of the static nodes, which follow it, and of the objects'.
     [[nodiscard]] std::span<const CullNode> nodes() const { return nodes_; }
     [[nodiscard]] bool is_leaf(std::uint32_t node) const { return nodes_[node].end == node + 1; }
+    /// What drawing a leaf takes, by batch.
     [[nodiscard]] std::span<const DrawRange> ranges(std::uint32_t leaf) const {
         return std::span(ranges_).subspan(nodes_[leaf].first_range, nodes_[leaf].range_count);
     }
@@ -70,6 +72,7 @@ class CullTree {
     [[nodiscard]] std::span<const std::uint32_t> tight(std::uint32_t node) const {
         return std::span(tight_).subspan(nodes_[node].first_tight, nodes_[node].tight_count);
     }
+    /// Of the static part.
     [[nodiscard]] std::uint64_t leaf_count() const;
 
   private:

@@ -12,6 +12,7 @@
 
 namespace rhview {
 
+/// Every batch whole and every object, wherever the camera looks: what others are compared with.
 class DrawEverything final : public FramePlanner {
   public:
     /// Batch i of the index buffer has `batch_index_counts[i]` indices, one batch after the other.

@@ -18,6 +18,7 @@ struct StaticObject {
     Aabb bounds;
 };
 
+/// Each of the author's objects whose box is not outside is drawn, by a call of its own.
 class FrustumObjects final : public FramePlanner {
   public:
     /// `objects` stand in the order of their batches.

@@ -38,6 +38,7 @@ struct GridObject {
     float outer_radius = std::numeric_limits<float>::infinity();  ///< of a ball about its box's centre
 };
 
+/// How fine the grid is, and what counts as an occluder.
 struct GridOptions {
     glm::ivec3 cells{100, 60, 100};
     Aabb bounds;  ///< empty: of everything. What moves out of it is only tested against the frustum
@@ -57,6 +58,7 @@ struct GridStatistics {
     std::uint64_t opaque_cells = 0;      ///< of moving objects
 };
 
+/// Traverses the grid from the eye outwards, shell by shell, and draws what it reaches.
 class GridPlanner final : public FramePlanner {
   public:
     /// `batches` hold the triangles of `statics`, in order, and nothing else; their arrays outlive it.

@@ -23,6 +23,7 @@ struct DrawnFrame {
     std::uint64_t geometry_queries = 0;  ///< asked with what was drawn anyway
     std::uint64_t hidden_queries = 0;    ///< answers that nothing was seen
 
+    /// Empties it and keeps its memory.
     void clear();
 };
 

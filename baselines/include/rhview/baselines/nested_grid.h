@@ -14,6 +14,7 @@
 
 namespace rhview {
 
+/// The shape of the nested grids.
 struct NestedGridOptions {
     std::uint32_t levels = 3;       ///< 1 to 3
     std::uint32_t top_cells = 8;    ///< of the first grid along the scene's longest side; cells are cubes
@@ -29,6 +30,7 @@ OrderedTree make_nested_grid(std::span<const TriangleBatch> batches, const Neste
 /// seen is drawn, or its inner cells are asked about likewise. Nothing is remembered.
 class StopAndWait final : public InteractiveMethod {
   public:
+    /// For one view. `tree` is of the grids' cells.
     explicit StopAndWait(CullTree tree);
     ~StopAndWait() override;
 

@@ -9,6 +9,7 @@
 
 namespace rhview {
 
+/// Frustum culling down to leaves, each drawn by a call of its own per batch.
 class OctreeLeaves final : public FramePlanner {
   public:
     /// `octree` outlives the planner.

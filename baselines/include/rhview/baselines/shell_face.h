@@ -22,6 +22,7 @@
 
 namespace rhview {
 
+/// One face of the shells around the eye's cell: which of its cells light can still reach.
 class ShellFace {
   public:
     /// Slopes of the rays that the picture holds, to either side. Up to 2, a cell of a face's third shell or
@@ -48,6 +49,7 @@ class ShellFace {
         int u_first = 0, u_last = -1;
         int v_first = 0, v_last = -1;
 
+        /// Whether no cell of the rectangle is in this one; bounds are inclusive.
         [[nodiscard]] bool misses(int u0, int u1, int v0, int v1) const {
             return u_first > u1 || u_last < u0 || v_first > v1 || v_last < v0;
         }

@@ -28,6 +28,7 @@ struct CellLists {
     std::vector<std::uint32_t> first;  ///< one more than there are cells
     std::vector<std::uint32_t> entries;
 
+    /// The entries of a cell, by its number in the grid.
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t cell) const {
         return {entries.data() + first[cell], entries.data() + first[cell + 1]};
     }

@@ -20,11 +20,13 @@
 
 namespace rhview {
 
+/// Volumes of objects in a grid, and when each ends.
 class TemporalVolumes {
   public:
     static constexpr std::uint32_t kLongestPeriod = 256;  ///< frames
 
     TemporalVolumes() = default;
+    /// None yet, for a grid of `cells` and objects numbered below `object_count`.
     TemporalVolumes(const glm::ivec3& cells, std::size_t object_count);
 
     /// The object, which has no volume, stays in `box`, cells of the grid, through the next `period` - 1

@@ -13,6 +13,7 @@
 
 namespace rhview {
 
+/// Closed; one of no radius is a point.
 struct Sphere {
     glm::vec3 centre{0.0f};
     float radius = 0.0f;

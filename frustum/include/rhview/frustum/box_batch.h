@@ -32,6 +32,7 @@ struct BoxSpans {
 
     /// Boxes [first, first + length) of these.
     [[nodiscard]] BoxSpans subspan(std::size_t first, std::size_t length) const;
+    /// The box at `i`.
     [[nodiscard]] Aabb operator[](std::size_t i) const {
         return {{min_x[i], min_y[i], min_z[i]}, {max_x[i], max_y[i], max_z[i]}};
     }
@@ -43,10 +44,13 @@ class BoxArrays {
     BoxArrays() = default;
     explicit BoxArrays(std::span<const Aabb> boxes) { assign(boxes); }
 
+    /// Replaces all boxes; memory is kept.
     void assign(std::span<const Aabb> boxes);
     void resize(std::size_t count);  ///< new boxes are empty
+    /// Replaces the box at `i`, which is there.
     void set(std::size_t i, const Aabb& box);
     [[nodiscard]] std::size_t size() const { return values_[0].size(); }
+    /// For the functions below; valid until the boxes are resized or assigned.
     [[nodiscard]] BoxSpans spans() const;
 
   private:

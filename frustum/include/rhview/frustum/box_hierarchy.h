@@ -25,6 +25,7 @@ enum class HierarchySplit {
     SurfaceArea,  ///< where surface times boxes is least, of 16 places on each axis
 };
 
+/// The shape of the tree; any gives the same answers.
 struct HierarchyOptions {
     HierarchySplit split = HierarchySplit::SurfaceArea;
     std::uint32_t width = 2;            ///< children of a node, at most; 2 to 8
@@ -55,6 +56,7 @@ struct HierarchyVisits {
     std::uint64_t boxes = 0;  ///< tested one by one, in leaves
 };
 
+/// A tree over boxes, culled from the root down; built once, refitted when boxes move.
 class BoxHierarchy {
   public:
     BoxHierarchy() = default;

@@ -35,6 +35,7 @@ struct CornerFrustum : Frustum {
     std::array<Extent, 5> extents;
 };
 
+/// `view` is valid; boxes are relative to `scene_origin`.
 CornerFrustum make_corner_frustum(const View& view, const glm::dvec3& scene_origin = glm::dvec3(0.0));
 
 /// As for a plain frustum, and `Outside` for a box beyond the extents: the same kind of proof. A box that

@@ -22,6 +22,7 @@
 
 namespace rhview {
 
+/// Of a box. `Outside` and `Inside` are proofs, `Intersecting` proves nothing.
 enum class Containment { Outside, Intersecting, Inside };
 
 /// One bit per plane that is still to be tested, in the order of `Frustum::Plane`.
@@ -45,9 +46,12 @@ struct BoxPlane {
     float outside_distance = 1.0f;  ///< the plane's distance, pushed outwards: below zero proves outside
     float inside_distance = 1.0f;   ///< pushed inwards
 };
+/// What a box test may err by, per unit of the greatest coordinate: see `BoxPlane`.
 inline constexpr float kBoxSlack = 3 * 0x1p-20f;
 
+/// What boxes are tested against; its planes point inwards. `make_frustum` makes it of a view.
 struct Frustum {
+    /// The planes' order in `planes` and in a mask.
     enum Plane { Left, Right, Near, Far, Bottom, Top };
 
     std::array<FrustumPlane, 6> planes;

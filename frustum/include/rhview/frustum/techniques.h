@@ -25,18 +25,21 @@ enum class BoxTest {
     VectorAcross,  ///< one vector of boxes, plane after plane
 };
 
+/// In which order boxes come to be tested.
 enum class Traversal {
     Flat,       ///< every box, no hierarchy
     Stack,      ///< a stack of nodes still to be visited
     Stackless,  ///< escape indices
 };
 
+/// How the work is shared.
 enum class Threads {
     One,
     StaticSplit,   ///< subtrees shared out to two threads beforehand
     WorkStealing,  ///< subtrees taken by whichever of two threads is free
 };
 
+/// One choice of each kind: what the ablation compares.
 struct CullingTechniques {
     BoxTest test = BoxTest::PAndNVertex;
     Traversal traversal = Traversal::Stackless;
@@ -57,6 +60,7 @@ struct CullingTechniques {
 /// One per view: it remembers frames. The hierarchy outlives it and is not refitted meanwhile.
 class TechniqueCuller {
   public:
+    /// `tree` outlives it.
     TechniqueCuller(const BoxHierarchy& tree, const CullingTechniques& techniques);
 
     /// As `BoxHierarchy::cull`.

@@ -14,6 +14,7 @@
 
 namespace rhview::gl {
 
+/// How long to measure.
 struct AnswerCostOptions {
     double longest_s = 1.0;  ///< of timing; the first two rounds are always whole
     int rounds = 25;         ///< at most, each in another order
@@ -28,6 +29,7 @@ struct AskedFrame {
     double ns = 0.0;  ///< median, less that of a frame that asks nothing
 };
 
+/// The fit, and the frames that it is of.
 struct MeasuredAnswerCosts {
     QueryCosts costs;
     std::vector<AskedFrame> frames;

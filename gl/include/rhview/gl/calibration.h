@@ -27,6 +27,7 @@ struct CalibrationSubject {
     double fov_y_deg = 60.0, near_m = 0.1, far_m = 1000.0;
 };
 
+/// How long to measure, and what.
 struct CalibrationOptions {
     int frames = 150;                ///< design points, spread over the subjects
     int rounds = 3;                  ///< times that each is timed
@@ -37,6 +38,7 @@ struct CalibrationOptions {
     std::function<void(int done, int total)> progress{};
 };
 
+/// The profile, and all that it was concluded from.
 struct Calibration {
     TimingProfile profile;  ///< no date
     Selection selection;    ///< every candidate model with its error

@@ -13,6 +13,7 @@
 
 namespace rhview::gl {
 
+/// What draws, as its driver calls itself, and what it can do.
 struct DeviceInfo {
     std::string renderer;
     std::string version;
@@ -22,6 +23,7 @@ struct DeviceInfo {
     bool tells_loss = false;    ///< `check_device` sees a reset of the device
 };
 
+/// What to ask of the driver.
 struct ContextOptions {
     bool debug = false;  ///< a debug context: the driver checks more and is slower
 };
@@ -42,6 +44,7 @@ class Context {
     Context& operator=(Context&&) noexcept;
     ~Context();
 
+    /// Of the device found; valid as long as the context.
     [[nodiscard]] const DeviceInfo& device() const;
 
   private:

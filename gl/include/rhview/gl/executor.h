@@ -59,11 +59,13 @@ ExecutedDraws count_executed(const FramePlan& plan, const SceneBuffers& scene,
 
 class WorkCounter;
 
+/// How index ranges become draw calls.
 enum class Submission {
     Plain,      ///< one call per range
     MultiDraw,  ///< one call per batch
 };
 
+/// Of one frame.
 struct DrawOptions {
     Submission submission = Submission::Plain;
     std::optional<glm::vec3> colour;  ///< instead of the materials' and vertices', whose brightness is kept
@@ -75,6 +77,7 @@ struct DrawOptions {
     std::span<const std::uint8_t> object_levels{};
 };
 
+/// Of all frames.
 struct ExecutorOptions {
     /// A query without an answer after that many frames is given up, and answered as visible.
     std::uint32_t lost_after_frames = 64;
@@ -86,6 +89,7 @@ class OcclusionTests;
 /// Draws for one planner, or several whose tickets differ: answers come back by ticket.
 class Executor {
   public:
+    /// Needs a current context, which outlives it. Errors: a shader that the driver refuses.
     static Result<Executor> create(const ExecutorOptions& options = {});
     Executor(Executor&&) noexcept;
     Executor& operator=(Executor&&) noexcept;
@@ -107,8 +111,8 @@ class Executor {
     /// First all draws at once, then the boxes of all queries against that depth, then the conditional draws,
     /// about which the device decides: by conditional rendering, or by indirect commands that it writes
     /// itself. The CPU waits for nothing. What is left out could not have changed a bit of the depths: see
-    /// `query_boxes.h`. Every query has a box. The application's depth range is [0, 1], and it uses no
-    /// polygon offset and no occlusion query of its own meanwhile.
+    /// `pipeline/query_boxes.h`. Every query has a box. The application's depth range is [0, 1], and it uses
+    /// no polygon offset and no occlusion query of its own meanwhile.
     FrameCounters draw(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                        const DrawOptions& options = {});
 

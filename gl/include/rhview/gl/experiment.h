@@ -37,6 +37,7 @@ struct FrameTiming {
     std::vector<double> round_ns;  ///< `frame_ns` of each round that came to it
 };
 
+/// How often frames are timed, and for how long in all.
 struct ExperimentOptions {
     int rounds = 3;              ///< each frame is timed that often, if time allows
     double longest_s = 14.0;     ///< no new frame is begun after that, once every frame was timed
@@ -54,6 +55,7 @@ Result<std::vector<FrameTiming>> run_experiment(std::span<const ExperimentFrame>
 
 /// Whole frames as samples of the timing model; `submission` takes the time until the last call returned.
 enum class TimedPart { Frame, Submission };
+/// The frames as the fit takes them: their work, and the median time of that part.
 std::vector<Sample> samples_of(std::span<const FrameTiming> timings, TimedPart part = TimedPart::Frame);
 
 }  // namespace rhview::gl

@@ -15,6 +15,7 @@
 
 namespace rhview::gl {
 
+/// How many frames, and between which bounds.
 struct DesignOptions {
     int frames = 150;
     std::uint32_t seed = 1;

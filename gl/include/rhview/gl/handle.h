@@ -10,10 +10,13 @@
 
 namespace rhview::gl {
 
+/// What of OpenGL's objects a handle owns.
 enum class HandleKind { Buffer, VertexArray, Program, Framebuffer, Renderbuffer, Query };
 
+/// Deletes the object, whose context is current; 0 is none.
 void delete_handle(HandleKind kind, std::uint32_t name);
 
+/// Owns an object of OpenGL: deleted with the handle, while its context is current.
 template <HandleKind Kind>
 class Handle {
   public:
@@ -34,13 +37,20 @@ class Handle {
     std::uint32_t name_ = 0;
 };
 
+/// Vertices, indices, storage.
 using Buffer = Handle<HandleKind::Buffer>;
+/// Where the attributes of a vertex are read from.
 using VertexArray = Handle<HandleKind::VertexArray>;
+/// Linked shaders.
 using Program = Handle<HandleKind::Program>;
+/// What is drawn into.
 using Framebuffer = Handle<HandleKind::Framebuffer>;
+/// An image that is only drawn into.
 using Renderbuffer = Handle<HandleKind::Renderbuffer>;
+/// An occlusion or timer query.
 using Query = Handle<HandleKind::Query>;
 
+/// Deletes the fence, whose context is current; null is none.
 void delete_fence(void* sync);
 
 /// A GLsync.

@@ -58,6 +58,7 @@ struct ImageDifference {
     double colour_mse = 0.0;
     std::optional<double> ssim;
 };
+/// All of them at once. Both pictures have the same size, and a depth per pixel from `view`.
 ImageDifference image_difference(const Picture& picture, std::span<const float> depths,
                                  const Picture& reference, std::span<const float> reference_depths,
                                  const View& view);

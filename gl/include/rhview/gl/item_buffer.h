@@ -28,8 +28,10 @@ struct ItemRange {
 /// each range with a call of its own and waits for the picture.
 class ItemBuffer {
   public:
+    /// Of that size; an error names what the driver refused.
     static Result<ItemBuffer> create(int width, int height);
 
+    /// No item has this number: a pixel that shows nothing.
     static constexpr std::uint32_t kNoItem = 0xffffffffu;
 
     /// Draws `ranges` (by batch, best) and all objects of `scene`, where `placements` (by `ObjectId`) says,

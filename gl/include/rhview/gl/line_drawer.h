@@ -18,13 +18,16 @@ namespace rhview::gl {
 struct Lines {
     std::vector<glm::dvec3> points;
 
+    /// The twelve edges of a box relative to `origin`.
     void add_box(const Aabb& box, const glm::dvec3& origin);
     /// The edges of the view's frustum, from the eye; one longer than `reach` metres is cut there.
     void add_frustum(const View& view, double reach);
 };
 
+/// Draws lines of one width over a picture.
 class LineDrawer {
   public:
+    /// Needs a current context, which outlives it.
     static Result<LineDrawer> create();
 
     /// Draws into the bound framebuffer, over everything; state is put back.

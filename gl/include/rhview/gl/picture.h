@@ -19,6 +19,7 @@ namespace rhview::gl {
 /// 8-bit RGB, top row first.
 class Picture {
   public:
+    /// Black. Sizes are positive.
     Picture(int width, int height);
 
     [[nodiscard]] int width() const { return width_; }

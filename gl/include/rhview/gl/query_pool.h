@@ -22,10 +22,12 @@ struct AnswerCounters {
     std::uint64_t blocking_reads = 0;  ///< results that were read before the device said they are there
 };
 
+/// Query objects: begun, polled, used again.
 class QueryPool {
   public:
     /// Whether the result of a query is there; if so, sets `samples`. May not wait.
     using Poll = bool (*)(std::uint32_t name, std::uint64_t& samples);
+    /// The `Poll` that asks OpenGL.
     static bool poll_device(std::uint32_t name, std::uint64_t& samples);
 
     /// A query that has no answer after that many frames is given up. Tests bring their own `poll_query`.
@@ -35,6 +37,7 @@ class QueryPool {
     /// Starts a query: GL_SAMPLES_PASSED if it counts, else GL_ANY_SAMPLES_PASSED_CONSERVATIVE, neither of
     /// which may be active. Returns its OpenGL name, valid for conditional rendering until the next frame.
     std::uint32_t begin(std::uint64_t ticket, bool counts_samples);
+    /// Ends the query that was begun.
     void end();
 
     /// Appends the answers that have come, and those given up; asks the device for no result that it does

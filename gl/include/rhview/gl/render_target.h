@@ -16,6 +16,7 @@
 
 namespace rhview::gl {
 
+/// A picture and its depths without a window.
 class RenderTarget {
   public:
     /// Sizes from 1×1 to what the driver allows; an error names the limit.

@@ -45,6 +45,7 @@ struct MeshState {
     LevelRange whole;                   ///< full detail
 };
 
+/// Owns what the driver holds of one scene; the scene itself may go.
 class SceneBuffers {
   public:
     /// Copies the scene. `static_indices` replaces those of the static batches (`RhOctree::indices`: batch

@@ -13,9 +13,9 @@
 namespace rhview::gl {
 
 /// Between `begin` and `end` of a frame, calls of `OcclusionDevice` become OpenGL calls at once. Draws have
-/// the depths that `Executor::draw` gives them, boxes are widened as `query_boxes.h` proves, and queries are
-/// GL_ANY_SAMPLES_PASSED_CONSERVATIVE. Draws and boxes may alternate: each change sets the state that
-/// differs.
+/// the depths that `Executor::draw` gives them, boxes are widened as `pipeline/query_boxes.h` proves, and
+/// queries are GL_ANY_SAMPLES_PASSED_CONSERVATIVE. Draws and boxes may alternate: each change sets the state
+/// that differs.
 class SteppedExecutor final : public OcclusionDevice {
   public:
     /// `executor` outlives it.

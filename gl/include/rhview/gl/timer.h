@@ -27,7 +27,9 @@ class WallTimer {
 class GpuTimer {
   public:
     GpuTimer();
+    /// What is submitted between `begin` and `end` is timed. No other timer query is active.
     void begin();
+    /// See `begin`.
     void end();
     /// Waits for the answer.
     [[nodiscard]] double read_ms();
@@ -43,6 +45,7 @@ struct TimerCheck {
     double gpu_share = 0.0;  ///< GPU time / wall time
     [[nodiscard]] bool gpu_timer_is_whole() const { return gpu_share >= 0.8 && gpu_share <= 1.1; }
 };
+/// Times vertex work by both clocks, on the current context.
 Result<TimerCheck> check_gpu_timer();
 
 }  // namespace rhview::gl

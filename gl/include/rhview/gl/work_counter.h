@@ -26,11 +26,14 @@ class WorkCounter {
     WorkCounter();
 
     [[nodiscard]] bool is_available() const { return available_; }
+    /// What is drawn between `begin` and `end` is counted, one frame at a time.
     void begin();
+    /// See `begin`.
     void end();
     /// Between them, within a frame and once, nothing is counted and other occlusion queries may be active:
     /// the executor pauses while it draws the boxes of queries (`DrawOptions::counter`).
     void pause();
+    /// See `pause`.
     void resume();
     /// Sets primitives, fragments and passed samples of the last counted frame; waits for it.
     void read(Work& work);

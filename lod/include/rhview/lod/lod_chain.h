@@ -45,6 +45,7 @@ enum class LodEnd : std::uint32_t {
 /// "the mesh is small as it is": the end of a sentence.
 std::string_view text_of(LodEnd end);
 
+/// A mesh at falling detail, all levels over its own vertices.
 struct LodChain {
     /// Finest first, at least one: level 0 is the mesh itself. Each other has at most four fifths of the
     /// indices of the one before.
@@ -63,6 +64,7 @@ struct LodMesh {
     std::span<const std::uint32_t> indices;  ///< three per triangle
 };
 
+/// How many levels, and how far apart.
 struct LodOptions {
     /// Indices of a level as a share of those of the level before; 0.1 to 0.8.
     double ratio = 0.5;

@@ -33,6 +33,7 @@ struct LodCosts {
     double draw_ns = 0.0;    ///< a level of a mesh that at least one object is drawn at: an instanced call
 };
 
+/// What decides how coarse a level may be, where there is no budget.
 enum class LodPolicy {
     ErrorBound,  ///< the coarsest level whose projected error is within the bound
     /// The paper's heuristic (Serpa & Rodrigues 2018): distance, by the bound, and fragments: no more
@@ -40,6 +41,7 @@ enum class LodPolicy {
     Fragments,
 };
 
+/// The bound, the budget, and how much must change for a level to change.
 struct LodSelectionOptions {
     LodPolicy policy = LodPolicy::ErrorBound;
     double max_error_px = 1.0;            ///< 0: full detail
@@ -52,6 +54,7 @@ struct LodSelectionOptions {
     double hysteresis = 0.15;
 };
 
+/// What was selected, and what it comes to.
 struct LodSelection {
     std::vector<std::uint32_t> levels;  ///< of each object, in the order given
     double max_error_px = 0.0;          ///< the largest error on the screen
@@ -79,6 +82,7 @@ struct LodSelection {
 /// objects and levels without a budget, O(n log n) in refinements with one.
 class LodSelector {
   public:
+    /// `chains` outlive it.
     explicit LodSelector(std::span<const LodChain> chains);
 
     /// Each slot occurs once, each chain is one of the selector's.

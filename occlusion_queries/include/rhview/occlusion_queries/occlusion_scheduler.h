@@ -41,6 +41,7 @@ struct OcclusionCandidate {
     bool trial = false;  ///< nothing is drawn of it: its parts are candidates, and `may_try` allowed this
 };
 
+/// What to do with a candidate in this frame.
 enum class OcclusionAction : std::uint8_t {
     Draw,          ///< at once
     DrawAndQuery,  ///< at once; its query is for later frames
@@ -48,6 +49,7 @@ enum class OcclusionAction : std::uint8_t {
     Skip,          ///< not at all: latent mode only; its query, if any, is for later frames
 };
 
+/// Of one candidate.
 struct OcclusionDecision {
     static constexpr std::uint32_t kNoQuery = 0xffffffffu;
 
@@ -55,6 +57,7 @@ struct OcclusionDecision {
     std::uint32_t query = kNoQuery;  ///< into `OcclusionDecisions::queries`
 };
 
+/// A question about one candidate or several.
 struct ScheduledQuery {
     std::uint64_t ticket = 0;  ///< never used before by this scheduler
     QueryWay way = QueryWay::HardwareQuery;
@@ -76,6 +79,7 @@ struct OcclusionDecisions {
 /// One per view; not thread-safe. Allocates when the largest frame grows, never after.
 class OcclusionScheduler {
   public:
+    /// Knows nothing of any item yet.
     explicit OcclusionScheduler(const OcclusionSettings& settings = {}, const QueryCosts& costs = {});
     ~OcclusionScheduler();
     OcclusionScheduler(OcclusionScheduler&&) noexcept;
@@ -88,6 +92,7 @@ class OcclusionScheduler {
     void forget(std::uint32_t item);
     /// A cost that is no number, or below 0, is not known: what it is part of is never asked.
     void set_costs(const QueryCosts& costs);
+    /// What it decides by.
     [[nodiscard]] const OcclusionSettings& settings() const;
 
     /// Answers of earlier frames in any order, each at most once; unknown tickets (twice answered, long
@@ -114,10 +119,12 @@ class OcclusionScheduler {
     /// Decides about all candidates of the frame; at most one call per frame. Deterministic.
     void decide(std::span<const OcclusionCandidate> candidates, OcclusionDecisions& out);
 
+    /// Since it was made.
     struct Counters {
         std::uint64_t answers = 0, hidden = 0;        ///< absorbed; of those, taken for hidden
         std::uint64_t unknown_tickets = 0, lost = 0;  ///< answers that nobody asked for; queries given up
     };
+    /// Of all frames so far.
     [[nodiscard]] const Counters& counters() const;
 
   private:

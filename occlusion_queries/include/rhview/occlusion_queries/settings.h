@@ -14,17 +14,20 @@
 
 namespace rhview {
 
+/// Whose word a thing is left out on.
 enum class OcclusionMode : std::uint8_t {
     Exact,   ///< left out only what a query of this same frame covers
     Latent,  ///< what was hidden in earlier frames is left out; its error must be measured
 };
 
+/// Which things are asked about.
 enum class OcclusionPolicy : std::uint8_t {
     Model,  ///< a query where p·render_ns exceeds its price
     Paper,  ///< all items are asked about, if drawing them is predicted to exceed `paper_budget_ns`; else
             ///< none. One hardware query each, always in exact mode
 };
 
+/// The defaults are meant to be kept: only `mode` is for every user to choose.
 struct OcclusionSettings {
     OcclusionMode mode = OcclusionMode::Exact;
     OcclusionPolicy policy = OcclusionPolicy::Model;

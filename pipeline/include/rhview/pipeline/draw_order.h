@@ -17,6 +17,7 @@ namespace rhview {
 /// Reuse it: no allocation after warm-up.
 class DrawOrder {
   public:
+    /// `octree` may go afterwards.
     explicit DrawOrder(const RhOctree& octree);
 
     /// Sorts `ranges`, given by batch and within a batch along the index buffer, by distance from `eye`

@@ -37,6 +37,7 @@ struct ConditionalRange {
     friend bool operator==(const ConditionalRange&, const ConditionalRange&) = default;
 };
 
+/// An object that is drawn if its query sees something, or if the device does not know.
 struct ConditionalObject {
     ObjectId object{};
     std::uint32_t query = 0;

@@ -32,6 +32,7 @@ struct FrameInput {
     /// earlier frames is forgotten.
     std::span<const ObjectId> new_objects{};
 
+    /// Whether an object has that number now.
     [[nodiscard]] bool is_alive(std::size_t object) const {
         return object_alive.empty() || (object_alive[object / 64] >> (object % 64) & 1) != 0;
     }

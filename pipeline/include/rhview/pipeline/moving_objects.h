@@ -30,6 +30,7 @@
 
 namespace rhview {
 
+/// For how long a volume may stand in for its object.
 struct TemporalVolumeSettings {
     /// Periods, seconds. Ours: a few frames at 60 Hz at first, and no more than a walker needs to get past a
     /// wall: a volume that is seen where its object is not costs more than being told where that is.
@@ -54,9 +55,11 @@ class MovingObjects {
 
     /// The lowest number that is free. `group` as in `FrameInput::object_groups`.
     ObjectId add(const Aabb& box, std::uint32_t group, const MotionPromise& promise);
+    /// One that promises no range.
     ObjectId add(const Aabb& box, std::uint32_t group, double top_speed) {
         return add(box, group, MotionPromise{top_speed, {}});
     }
+    /// Its number is free again at once.
     void remove(ObjectId object);
     /// Times never fall.
     void begin_frame(double time_s);
@@ -71,6 +74,7 @@ class MovingObjects {
     void describe(FrameInput& input) const;
     /// What none of the frame's plans draws at once falls asleep; what one does wakes.
     void end_frame_of_views(std::span<const FramePlan* const> plans);
+    /// For an application with one view.
     void end_frame(const FramePlan& plan) {
         const FramePlan* const only = &plan;
         end_frame_of_views({&only, 1});

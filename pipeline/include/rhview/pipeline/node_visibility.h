@@ -18,6 +18,7 @@
 
 namespace rhview {
 
+/// What asking costs here, and how to go about it.
 struct OcclusionOptions {
     OcclusionSettings settings;
     QueryCosts costs;

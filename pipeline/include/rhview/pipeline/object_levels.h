@@ -37,6 +37,7 @@ struct LevelledObject {
     float scale = 1.0f;  ///< the longest that a unit of the mesh is in the scene: `largest_stretch`
 };
 
+/// How wrong a level may be, and what else decides.
 struct LevelOptions {
     double max_error_px = 1.0;  ///< 0: full detail, unless the budget forbids it
     /// `Fragments`: by what the answers that were absorbed count; `OcclusionOptions::counts_samples` asks for
@@ -65,6 +66,10 @@ class ObjectLevels {
     /// `chains` stay where they are; of 255 levels at most. `objects` by `ObjectId`; an object beyond the end
     /// has full detail.
     ObjectLevels(std::span<const LodChain> chains, std::span<const LevelledObject> objects);
+
+    /// Another object has the number now; its chain is one of the chains. What its number was drawn at is
+    /// forgotten where `FrameInput::new_objects` says so. Allocates for numbers beyond all before.
+    void set_object(ObjectId object, const LevelledObject& levelled);
 
     /// Answers to the queries of earlier plans, for `LodPolicy::Fragments`.
     void absorb(std::span<const QueryAnswer> answers) { fragments_.absorb(answers); }

@@ -16,6 +16,7 @@
 
 namespace rhview {
 
+/// The planner to use. One per view: it remembers what was seen.
 class RhviewPlanner final : public FramePlanner {
   public:
     /// `octree` outlives the planner. `costs` may be others than those it was built for: the list is the

@@ -15,6 +15,7 @@
 
 namespace rhview {
 
+/// The rules of the paper that rhview grew out of, for comparison.
 class SeedPlanner final : public FramePlanner {
   public:
     /// `octree` outlives the planner.

@@ -21,6 +21,7 @@
 
 namespace rhview {
 
+/// Bands of distance, and how long answers count.
 struct VisibilityReportSettings {
     /// Distances from the eye to an object's box where bands end, rising, world units; band 0 is the nearest.
     std::vector<double> band_ends{};
@@ -48,6 +49,7 @@ struct ObjectSighting {
 /// Deterministic; no allocation once the most objects and queries have been there.
 class VisibilityReport {
   public:
+    /// Nothing was seen yet.
     explicit VisibilityReport(VisibilityReportSettings settings = {});
 
     /// Those that the planner absorbs, in any order.

@@ -26,6 +26,7 @@ struct BakedBatch {
     std::uint64_t vertex_count = 0;  ///< every index is below
 };
 
+/// An octree from a file, and what it was built of.
 struct BakedOctree {
     RhOctree octree;
     /// What it was built with: the fields that a file can hold.

@@ -45,6 +45,7 @@ inline constexpr float kFacingSlack = 0x1p-7f;
 /// From where a camera sees the scene. Mirroring views (a planar reflection, a flipped axis) are `Unknown`,
 /// since they turn the winding round and only the engine knows whether it follows: nothing is ever culled.
 struct Viewpoint {
+    /// Perspective has a point, parallel projection a direction; of `Unknown` nothing faces away.
     enum class Kind : std::uint8_t { Unknown, Point, Direction };
 
     Kind kind = Kind::Unknown;

@@ -18,16 +18,20 @@
 
 namespace rhview {
 
+/// Which table sorts normals into clusters.
 enum class ClusterScheme : std::uint8_t {
     AxisAligned,  ///< +x, +y, -x, +z, -y, -z: the fronts of each view octant lie in at most two ranges
     Cones,        ///< the sphere of normals in `kConeClusters` cells
 };
 
+/// Clusters of `AxisAligned`: the sides of a cube.
 inline constexpr std::uint32_t kAxisClusters = 6;
+/// Clusters of `Cones`; as many as bits of a word.
 inline constexpr std::uint32_t kConeClusters = 64;
 /// There is an order of cones for at most 1, 2 or 3 ranges.
 inline constexpr int kMaxClusterRanges = 3;
 
+/// Clusters of a scheme, empty ones counted.
 constexpr std::uint32_t cluster_count(ClusterScheme scheme) {
     return scheme == ClusterScheme::AxisAligned ? kAxisClusters : kConeClusters;
 }
@@ -56,6 +60,7 @@ struct ClusterRange {
     friend bool operator==(const ClusterRange&, const ClusterRange&) = default;
 };
 
+/// What `cover_ranges` found.
 struct ClusterCover {
     std::size_t range_count = 0;    ///< of the ranges that were handed in
     std::uint64_t index_count = 0;  ///< drawn, those of bridged clusters included

@@ -28,6 +28,7 @@ namespace rhview {
 /// Back-pointers of all routes of a frame. Clearing keeps the memory.
 class RangeLog {
   public:
+    /// No place; as `first` of an entry: a replica.
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
     /// A base range [first, end), or replica `end` if `first` is kNone.
@@ -41,6 +42,7 @@ class RangeLog {
 
     void clear() { entries_.clear(); }
     [[nodiscard]] const Entry& operator[](std::uint32_t place) const { return entries_[place]; }
+    /// Appends an entry and returns its place.
     std::uint32_t add(const Entry& entry) {
         entries_.push_back(entry);
         return static_cast<std::uint32_t>(entries_.size() - 1);

@@ -25,6 +25,7 @@
 
 namespace rhview {
 
+/// How fine, and with how many second copies. `choose_octree_options` fills it from prices.
 struct OctreeOptions {
     /// A node with more triangles is split, unless all their centroids share one cell of the finest grid. 0
     /// counts as 1.
@@ -103,6 +104,7 @@ struct OctreeNode {
     std::uint32_t replica_end = 0;  ///< of the subtree
 };
 
+/// What `build_octree` gives. Copying copies the arrays, unless they lie in a mapped file.
 class RhOctree {
   public:
     [[nodiscard]] std::span<const OctreeNode> nodes() const { return nodes_.span(); }
@@ -125,6 +127,7 @@ class RhOctree {
     [[nodiscard]] std::span<const NormalCluster> clusters() const { return clusters_.span(); }
     [[nodiscard]] std::size_t batch_count() const { return batch_count_; }
     [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
+    /// Of the index buffer, what replicas take.
     [[nodiscard]] std::size_t replica_bytes() const {
         return (indices_.size() - base_index_count_) * sizeof(std::uint32_t);
     }

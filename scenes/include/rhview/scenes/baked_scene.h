@@ -24,6 +24,7 @@ struct SceneProvenance {
     std::string baked_by;  ///< program and version
 };
 
+/// A scene from a baked file, with its path and where it came from.
 struct BakedScene {
     SceneAndPath scene;
     SceneProvenance provenance;

@@ -27,6 +27,7 @@ namespace rhview {
 
 struct Scene;
 
+/// Where the camera is at a time, and where it looks.
 struct CameraKey {
     double time_s = 0.0;
     glm::dvec3 eye{0.0};     ///< world space
@@ -58,6 +59,7 @@ Status validate(const CameraPath& path);
 
 /// Parses the text of a path file; `source_name` is what errors call it.
 Result<CameraPath> parse_camera_path(std::string_view json, const std::string& source_name);
+/// Reads and parses a file; errors name it.
 Result<CameraPath> load_camera_path(const std::filesystem::path& file);
 /// The text of a path file; parsing it gives the same path to the last bit. `path` is valid.
 std::string to_json(const CameraPath& path);

@@ -24,6 +24,7 @@
 
 namespace rhview {
 
+/// What to do with a mesh that several nodes of a file place.
 enum class RepeatedMeshes {
     Flatten,  ///< a copy in the batches for each node
     Keep,     ///< stored once; flattened all the same where `SceneBuilder::add_instance` refuses a place

@@ -25,6 +25,7 @@ struct SceneParameter {
     std::string_view meaning;
 };
 
+/// For lists and help.
 struct NamedSceneInfo {
     std::string_view name;
     std::string_view description;

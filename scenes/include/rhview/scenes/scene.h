@@ -22,6 +22,7 @@
 
 namespace rhview {
 
+/// What the program's own renderer knows of a surface; rhview needs `two_sided` alone.
 struct Material {
     std::string name;
     glm::vec3 colour{0.8f};     ///< linear RGB
@@ -31,12 +32,14 @@ struct Material {
 
 /// Unit normal, three signed 10-bit components (x in the low bits): OpenGL's GL_INT_2_10_10_10_REV.
 enum class PackedNormal : std::uint32_t {};
+/// Nearest that fits, of a unit vector.
 PackedNormal pack_normal(const glm::vec3& unit_normal);
 /// About unit length.
 glm::vec3 unpack_normal(PackedNormal normal);
 
 /// Linear RGBA, 8 bits each, red in the low byte.
 enum class PackedColour : std::uint32_t {};
+/// Nearest that fits, opaque; clamped to 0 … 1.
 PackedColour pack_colour(const glm::vec3& colour);
 
 /// The vertices of one vertex format. `normals` and `colours` are empty or as long as `positions`; without
@@ -46,6 +49,7 @@ struct VertexPool {
     MappableArray<PackedNormal> normals;
     MappableArray<PackedColour> colours;
 
+    /// Of its vertices, as stored.
     [[nodiscard]] std::size_t bytes() const;
 };
 
@@ -117,6 +121,7 @@ struct InstancingReport {
     friend bool operator==(const InstancingReport&, const InstancingReport&) = default;
 };
 
+/// All of it, as importers and named scenes give it.
 struct Scene {
     std::string name;
     glm::dvec3 origin{0.0};  ///< world position of the scene's zero
@@ -131,17 +136,20 @@ struct Scene {
     std::uint64_t dropped_triangles = 0;  ///< not finite, left out by the import
     std::vector<std::string> warnings;    ///< one sentence each
 
+    /// Of the static batches, without instances.
     [[nodiscard]] std::uint64_t batch_triangles() const;
     [[nodiscard]] std::uint64_t instance_triangles() const;  ///< of the static instances, as placed
     [[nodiscard]] std::uint64_t static_triangles() const;    ///< both
     [[nodiscard]] std::uint64_t dynamic_triangles() const;   ///< as placed
     [[nodiscard]] std::uint64_t static_objects() const;      ///< in batches and as instances
     [[nodiscard]] std::uint64_t vertex_count() const;        ///< as stored
+    /// Of all pools.
     [[nodiscard]] std::uint64_t vertex_bytes() const;
     [[nodiscard]] std::uint64_t index_bytes() const;  ///< of batches and meshes, as stored
     /// What is drawn object by object has an `ObjectId`: the dynamic objects first, then the static
     /// instances.
     [[nodiscard]] std::size_t object_count() const;
+    /// Which mesh an object draws.
     [[nodiscard]] MeshId object_mesh(ObjectId object) const;
     [[nodiscard]] const glm::dmat4& object_placement(ObjectId object) const;  ///< at time 0
     [[nodiscard]] std::vector<Aabb> object_boxes() const;                     ///< at time 0

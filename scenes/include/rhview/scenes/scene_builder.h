@@ -28,11 +28,13 @@ struct MeshPiece {
     std::span<const std::uint32_t> indices;
 };
 
+/// Add materials first, then what they draw, then `finish`.
 class SceneBuilder {
   public:
     /// Positions are stored relative to `origin`.
     explicit SceneBuilder(const glm::dvec3& origin = glm::dvec3(0.0));
 
+    /// Numbered from 0; equal ones are not joined.
     MaterialId add_material(Material material);
 
     /// Adds one static object: only the vertices that its triangles use are stored, in order of first use.
@@ -45,6 +47,7 @@ class SceneBuilder {
     /// Adds a mesh for dynamic objects and instances, in its own space; nothing if no finite triangle is
     /// left.
     std::optional<MeshId> add_mesh(MaterialId material, const MeshPiece& piece);
+    /// An object that the application may move; here it stands still.
     void add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh);
     /// One that moves, from there.
     void add_dynamic(MeshId mesh, const glm::dmat4& world_from_mesh, ObjectMotion motion);
@@ -53,6 +56,7 @@ class SceneBuilder {
     /// then.
     bool add_instance(MeshId mesh, const glm::dmat4& world_from_mesh);
 
+    /// For `Scene::warnings`: what was wrong with the source, and what was done about it.
     void add_warning(std::string sentence);
 
     /// Room for what is about to be added to the pool and batch of this material and format.

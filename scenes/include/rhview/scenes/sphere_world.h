@@ -17,6 +17,7 @@
 
 namespace rhview {
 
+/// Its size, and what is in it.
 struct SphereWorldOptions {
     glm::dvec3 size{100.0, 60.0, 100.0};  ///< of the box, which begins at 0
     std::size_t spheres = 5000;
@@ -28,7 +29,9 @@ struct SphereWorldOptions {
     std::uint64_t seed = 1;
 };
 
+/// Balls that stand and move, known exactly: their movement is a formula.
 struct SphereWorld {
+    /// One of them; a moving one goes straight and turns back at the faces of the box.
     struct Sphere {
         glm::dvec3 centre{0.0};  ///< at time 0
         double radius = 1.0;
@@ -38,6 +41,7 @@ struct SphereWorld {
     glm::dvec3 size{0.0};
     std::vector<Sphere> spheres;
 
+    /// Where one of its spheres is.
     [[nodiscard]] glm::dvec3 centre_at(const Sphere& sphere, double time_s) const;
     /// Of all spheres, by number.
     [[nodiscard]] std::vector<Aabb> boxes_at(double time_s) const;
@@ -45,6 +49,7 @@ struct SphereWorld {
     [[nodiscard]] glm::dvec3 way(double turn) const;
 };
 
+/// The same for the same options, on every machine.
 SphereWorld make_sphere_world(const SphereWorldOptions& options);
 
 }  // namespace rhview

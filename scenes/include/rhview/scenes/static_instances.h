@@ -51,6 +51,7 @@ struct InstanceCosts {
 
 /// What all placements of a mesh cost a frame by the model above.
 double kept_ns(const RepeatedMesh& mesh, const InstanceCosts& costs);
+/// What drawing its copies takes a frame, if they are merged into batches.
 double flattened_ns(const RepeatedMesh& mesh, const InstanceCosts& costs);
 
 /// The meshes worth flattening, by id: those that save time, most time per byte first, as long as all of them
@@ -60,6 +61,7 @@ double flattened_ns(const RepeatedMesh& mesh, const InstanceCosts& costs);
 std::vector<MeshId> choose_flattened(std::span<const RepeatedMesh> meshes, const InstanceCosts& costs,
                                      std::uint64_t budget_bytes);
 
+/// Who decides which meshes are flattened.
 enum class InstancePolicy {
     Auto,     ///< `choose_flattened`
     Flatten,  ///< all, whatever they take
@@ -70,6 +72,7 @@ enum class InstancePolicy {
 /// pictures and textures want the rest.
 inline constexpr std::uint64_t kDefaultInstanceBudget = std::uint64_t{1} << 30;
 
+/// The policy, its prices and its budget.
 struct InstanceOptions {
     InstancePolicy policy = InstancePolicy::Auto;
     InstanceCosts costs;

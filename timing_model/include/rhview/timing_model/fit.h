@@ -24,6 +24,7 @@
 
 namespace rhview {
 
+/// How samples are weighed and how the fit is tested.
 struct FitOptions {
     Combination combination = Combination::Sum;  ///< `select_model` tries both, whatever is set here
     /// Of the cross-validation; sample i belongs to fold i mod folds, so shuffle the order of measuring. At
@@ -35,6 +36,7 @@ struct FitOptions {
     double coarsest_step = 0.1;
 };
 
+/// One constant of a model, and how sure it is.
 struct Coefficient {
     Term term = Term::Constant;
     double value_ns = 0.0;
@@ -50,6 +52,7 @@ struct ResidualPercentiles {
     double absolute_p50 = 0.0, absolute_p95 = 0.0;
 };
 
+/// The constants that explain the samples best, and how well they do.
 struct Fit {
     std::vector<Coefficient> coefficients;  ///< in the order of the terms asked for
     Combination combination = Combination::Sum;
@@ -64,10 +67,12 @@ struct Fit {
     double timer_step_ns = 0.0;  ///< 0: none that matters was found; otherwise the standard errors hold it
     double condition = 0.0;
 
+    /// By `Term`, 0 for those that the model lacks.
     [[nodiscard]] Constants constants() const;
     [[nodiscard]] const Coefficient* find(Term term) const;  ///< null if the model lacks the term
 };
 
+/// What the model says of the work.
 double predict_ns(const Fit& fit, const Work& work);
 
 /// The fewest samples with which `term_count` constants are fitted: 2·terms + 4.
@@ -102,6 +107,7 @@ struct Candidate {
     std::string note;  ///< why it was kept, dropped or impossible: one clause
 };
 
+/// The model kept, and every one that was tried.
 struct Selection {
     Fit fit;                            ///< of the kept model
     Fit plain;                          ///< T = c1·V + c3·N, the form of the paper, for comparison

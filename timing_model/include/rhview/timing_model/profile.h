@@ -47,7 +47,9 @@ struct TimingProfile {
 
     /// The constant of a term; absent if the model lacks it.
     [[nodiscard]] std::optional<double> constant(Term term) const;
+    /// Sets the field of that term.
     void set_constant(Term term, double value_ns);
+    /// By `Term`, 0 for those that were not measured.
     [[nodiscard]] Constants constants() const;
 
     /// What the model says of the work; terms that the model lacks cost nothing. Thread-safe, no allocation.
@@ -65,6 +67,7 @@ Status validate(const TimingProfile& profile);
 
 /// `source_name` begins every error sentence.
 Result<TimingProfile> parse_profile(std::string_view text, const std::string& source_name);
+/// Reads and parses a file; errors name it, and the field that is wrong.
 Result<TimingProfile> load_profile(const std::filesystem::path& file);
 
 /// The text of the file; the profile is valid. Broken UTF-8 is replaced by U+FFFD.

@@ -16,6 +16,7 @@
 
 namespace rhview {
 
+/// How fast to forget, and what to take for an outlier.
 struct RunningUpdateOptions {
     /// In (0, 1]: a sample that is n samples old counts λⁿ. 0.98 remembers about 50 frames.
     double forgetting = 0.98;
@@ -30,6 +31,7 @@ struct RunningUpdateOptions {
 /// Not thread-safe. Observing costs some hundred flops and allocates nothing.
 class RunningUpdate {
   public:
+    /// What became of a sample.
     enum class Outcome { Learned, Outlier, Invalid, Frozen };
 
     /// Learns the constants that the profile has; one without a standard error is taken as known to a quarter

@@ -21,6 +21,7 @@
 
 namespace rhview {
 
+/// What a frame is made of, as far as models count it.
 enum class Term {
     Constant,
     Indices,
@@ -32,16 +33,20 @@ enum class Term {
     Primitives,
     PassedSamples
 };
+/// Every term, by its number.
 inline constexpr std::array kAllTerms{Term::Constant,        Term::Indices,    Term::DrawCalls,
                                       Term::SubDraws,        Term::Fragments,  Term::Queries,
                                       Term::MaterialChanges, Term::Primitives, Term::PassedSamples};
+/// As many as there are.
 inline constexpr std::size_t kTermCount = kAllTerms.size();
 
+/// How the parts of a frame add up: one after the other, or the CPU's beside the GPU's.
 enum class Combination { Sum, MaxOfCpuAndGpu };
 
 /// Nanoseconds per unit of each term, by `Term`; 0 for a term that the model lacks.
 using Constants = std::array<double, kTermCount>;
 
+/// The term's place in `Constants`.
 constexpr std::size_t index_of(Term term) {
     return static_cast<std::size_t>(term);
 }

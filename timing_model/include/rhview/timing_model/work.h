@@ -20,6 +20,7 @@ struct Work {
     double passed_samples = 0.0;  ///< samples that passed the depth test
 };
 
+/// A frame: what was submitted, and how long it took.
 struct Sample {
     Work work;
     double measured_ns = 0.0;  ///< positive and finite

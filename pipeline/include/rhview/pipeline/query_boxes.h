@@ -5,9 +5,15 @@
 /// Boxes as the device tests them: widened, so that a box which does not pass the depth test proves that
 /// nothing in it would.
 ///
-/// What is proved: geometry inside a box, drawn by `Executor`, covers no sample that the faces of the widened
-/// box do not cover, nor any at a nearer depth. With M the clip matrix in float (rows 0 … 3), p a position
-/// relative to the eye, u = 2⁻²⁴ and S_r(p) = Σⱼ |M_rⱼ pⱼ| + |M_r3|:
+/// What is proved: geometry inside a box covers no sample that the faces of the widened box do not cover, nor
+/// any at a nearer depth, if both are drawn in float as `gl::Executor` draws them: the eye, split in two
+/// (`split_position`), is subtracted from a vertex, the rest multiplied by M = `clip_from_relative`. A box's
+/// vertex shader takes a corner p of `low` and `high`, and adds to M·(p, 1)
+///
+///     z += nearer · (depth_error.xyz · |p| + depth_error.w + shift · w)
+///
+/// with depth clamped. With rows M_0 … M_3, p a position relative to the eye, u = 2⁻²⁴ and
+/// S_r(p) = Σⱼ |M_rⱼ pⱼ| + |M_r3|:
 ///
 /// 1. The renderer's clip coordinate of a vertex errs by at most 7u·S_r; the box's own corner by as much; an
 ///    object, whose matrix and eye are rounded in its own space, by `growth` (`rounding_growth`) times that.
@@ -40,7 +46,7 @@
 #include "rhview/base/aabb.h"
 #include "rhview/base/view.h"
 
-namespace rhview::gl {
+namespace rhview {
 
 /// What the picture's rasteriser rounds to. Its depth range is [0, 1].
 struct RasterPrecision {
@@ -115,4 +121,4 @@ class BoxWidener {
     float nearest_ = -1.0f;
 };
 
-}  // namespace rhview::gl
+}  // namespace rhview

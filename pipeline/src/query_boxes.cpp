@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 
-#include "rhview/gl/query_boxes.h"
+#include "rhview/pipeline/query_boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "rhview/base/assert.h"
 #include "rhview/base/rounding.h"
 
-namespace rhview::gl {
+namespace rhview {
 namespace {
 
 constexpr double kUnit = 0x1p-24;
@@ -191,4 +191,4 @@ BoxInstance BoxWidener::widen(const Aabb& box, std::uint32_t slot) const {
     return instance;
 }
 
-}  // namespace rhview::gl
+}  // namespace rhview

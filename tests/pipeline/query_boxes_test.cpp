@@ -4,7 +4,7 @@
 // The widening itself, without a device: the renderer's float transform of points on a box, moved by a step
 // of the rasteriser's grid, stays inside the widened box and behind its shifted depth.
 
-#include "rhview/gl/query_boxes.h"
+#include "rhview/pipeline/query_boxes.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include "rhview/base/rounding.h"
 #include "uniform.h"
 
-namespace rhview::gl {
+namespace rhview {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -159,4 +159,4 @@ TEST(QueryBoxes, an_objects_rounding_grows_with_its_shear) {
 }
 
 }  // namespace
-}  // namespace rhview::gl
+}  // namespace rhview
