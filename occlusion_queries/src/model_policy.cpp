@@ -60,30 +60,37 @@ void ModelPolicy::appraise(std::span<const OcclusionCandidate> candidates, const
     }
 }
 
+/// Where the screen is covered `cold_coverage` times, all of the unknown that is hidden is behind something.
+/// Until then each pixel of an occluder hides its share, about: p·Σ render_ns / (cold_coverage·screen). Those
+/// that hide the most for their cost come first; one that costs more than it hides is asked first like the rest.
 bool ModelPolicy::put_occluders_in_front(std::span<const OcclusionCandidate> candidates,
                                          const OptionPricer& pricer, const ItemHistories& histories) {
     occluders_.clear();
+    double unknown_ns = 0.0;
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-        const std::uint32_t item = candidates[i].item;
-        if (histories[item].belief != Belief::Unknown || candidates[i].trial) continue;
-        const float distance = candidates[i].distance;
-        occluders_.push_back({distance == distance ? distance : 3e38f, item, i});
+        const OcclusionCandidate& candidate = candidates[i];
+        if (histories[candidate.item].belief != Belief::Unknown || candidate.trial) continue;
+        if (!(candidate.pixels > 0.0f)) continue;
+        if (options_[i].ask != Ask::First) {
+            covered_pixels_ += candidate.pixels;  // drawn at once as it is
+            continue;
+        }
+        unknown_ns += options_[i].render_ns;
+        occluders_.push_back({options_[i].render_ns / candidate.pixels, candidate.item, i});
     }
-    const auto farther = [](const Occluder& a, const Occluder& b) {
-        return std::tie(a.distance, a.item) > std::tie(b.distance, b.item);
+    const auto hides_less = [](const Occluder& a, const Occluder& b) {
+        return std::tie(a.ns_per_pixel, a.item) > std::tie(b.ns_per_pixel, b.item);
     };
-    std::make_heap(occluders_.begin(), occluders_.end(), farther);
+    std::make_heap(occluders_.begin(), occluders_.end(), hides_less);
     bool found = false;
     const double enough = settings_.cold_coverage * screen_pixels_;
     while (!occluders_.empty() && covered_pixels_ < enough) {
-        const std::uint32_t nearest = occluders_.front().candidate;
-        const float pixels = candidates[nearest].pixels;
-        if (options_[nearest].ask == Ask::First) {
-            pricer.price_occluder(candidates[nearest], options_[nearest]);
-            found = true;
-        }
-        if (pixels > 0.0f) covered_pixels_ += pixels;
-        std::pop_heap(occluders_.begin(), occluders_.end(), farther);
+        const Occluder best = occluders_.front();
+        if (best.ns_per_pixel * enough > histories.p_unknown() * unknown_ns) break;
+        pricer.price_occluder(candidates[best.candidate], options_[best.candidate]);
+        found = true;
+        covered_pixels_ += candidates[best.candidate].pixels;
+        std::pop_heap(occluders_.begin(), occluders_.end(), hides_less);
         occluders_.pop_back();
     }
     return found;

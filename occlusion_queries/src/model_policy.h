@@ -35,7 +35,7 @@ class ModelPolicy {
     };
     /// An item not known yet that may be drawn for others to hide behind.
     struct Occluder {
-        float distance = 0.0f;
+        float ns_per_pixel = 0.0f;
         std::uint32_t item = 0;
         std::uint32_t candidate = 0;
     };
