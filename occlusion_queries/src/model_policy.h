@@ -35,7 +35,7 @@ class ModelPolicy {
     };
     /// An item not known yet that may be drawn for others to hide behind.
     struct Occluder {
-        float ns_per_pixel = 0.0f;
+        float distance = 0.0f;
         std::uint32_t item = 0;
         std::uint32_t candidate = 0;
     };
@@ -45,6 +45,7 @@ class ModelPolicy {
     /// True if there are some whose answers are not known yet.
     bool put_occluders_in_front(std::span<const OcclusionCandidate> candidates, const OptionPricer& pricer,
                                 const ItemHistories& histories);
+    double collect_occluders(std::span<const OcclusionCandidate> candidates, const ItemHistories& histories);
     [[nodiscard]] Ways choose_ways(const QueryCosts& costs) const;
     static Choice choose(const CandidateOption& option, Ways ways);
     void ask_each(const OptionPricer& pricer, Ways ways, QueryWriter& writer, OcclusionDecisions& out);
