@@ -96,8 +96,8 @@ class WalkSession::Impl {
     Status walk(int frame) {
         FrameRecord record = draw_frame(frame);
         learn(record);
-        report_.plan_hash = plan_hash(plan_, report_.plan_hash);
         if (Status status = compare(frame, record); !status) return status;
+        hash_plan();
         report_.frames.push_back(record);
         return success();
     }
@@ -121,6 +121,13 @@ class WalkSession::Impl {
             levels_.emplace(scene_, ground_.chains, options_, constants_ ? &constants_->profile : nullptr);
         running_.reset();
         if (constants_) running_.emplace(constants_->profile);
+    }
+
+    /// As it was planned: which late objects got a level depends on which answers came in time.
+    void hash_plan() {
+        if (objects_.are_late())
+            for (ConditionalObject& object : plan_.conditional_objects) object.level = 0;
+        report_.plan_hash = plan_hash(plan_, report_.plan_hash);
     }
 
     /// What is asked for of the frame just drawn.
@@ -315,6 +322,8 @@ class WalkSession::Impl {
         if (levels_) choose_levels(input, record);
         record.cull_ms = timer.elapsed_ms() - moved_ms;
         objects_.place_planned(plan_, cameras.time_s);
+        LateStage late{*this, input, cameras.time_s};
+        if (objects_.are_late()) draw.late = {prepare_late, &late, objects_.largest_growth()};
         if (gpu_timer_) gpu_timer_->begin();
         work_counter_->begin();
         const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, cameras.render, draw);
@@ -342,7 +351,20 @@ class WalkSession::Impl {
 
     void choose_levels(const FrameInput& input, FrameRecord& record) {
         levels_->choose(input, running_ ? &running_->profile() : nullptr, plan_, record);
-        levels_->count_indices(plan_, object_indices_);
+        levels_->count_indices(input, plan_, object_indices_);
+    }
+
+    /// What late objects are prepared from.
+    struct LateStage {
+        Impl& walk;
+        const FrameInput& input;
+        double time_s;
+    };
+    static void prepare_late(void* context, std::span<std::uint32_t> places) {
+        const LateStage& stage = *static_cast<const LateStage*>(context);
+        FramePlan& plan = stage.walk.plan_;
+        if (stage.walk.levels_) stage.walk.levels_->choose_late(stage.input, plan, places);
+        stage.walk.objects_.place_late(plan, places, stage.time_s);
     }
 
     void count_object(ObjectId id, FrameRecord& record) const {
