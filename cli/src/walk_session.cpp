@@ -80,6 +80,12 @@ class WalkSession::Impl {
 
     [[nodiscard]] const PreparedMethod& method() const { return method_; }
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
+    std::uint64_t hash_of_plan(std::uint64_t seed) {
+        hashed_ = plan_;
+        if (objects_.are_late())
+            for (ConditionalObject& object : hashed_.conditional_objects) object.level = 0;
+        return plan_hash(hashed_, seed);
+    }
     [[nodiscard]] gl::RenderTarget& target() { return *target_; }
     [[nodiscard]] ClipDepth clip_depth() const { return clip_depth_; }
 
@@ -97,7 +103,7 @@ class WalkSession::Impl {
         FrameRecord record = draw_frame(frame);
         learn(record);
         if (Status status = compare(frame, record); !status) return status;
-        hash_plan();
+        report_.plan_hash = hash_of_plan(report_.plan_hash);
         report_.frames.push_back(record);
         return success();
     }
@@ -121,13 +127,6 @@ class WalkSession::Impl {
             levels_.emplace(scene_, ground_.chains, options_, constants_ ? &constants_->profile : nullptr);
         running_.reset();
         if (constants_) running_.emplace(constants_->profile);
-    }
-
-    /// As it was planned: which late objects got a level depends on which answers came in time.
-    void hash_plan() {
-        if (objects_.are_late())
-            for (ConditionalObject& object : plan_.conditional_objects) object.level = 0;
-        report_.plan_hash = plan_hash(plan_, report_.plan_hash);
     }
 
     /// What is asked for of the frame just drawn.
@@ -439,6 +438,7 @@ class WalkSession::Impl {
     std::optional<gl::WorkCounter> work_counter_;
     std::optional<FrameComparison> comparison_;
     FramePlan plan_;
+    FramePlan hashed_;                  ///< scratch
     std::vector<QueryAnswer> answers_;  ///< to the queries of the frame before
     std::string why_no_occlusion_;
 };
@@ -484,6 +484,10 @@ Status WalkSession::resize(PictureSize size) {
 
 const PreparedMethod& WalkSession::method() const {
     return impl_->method();
+}
+
+std::uint64_t WalkSession::hash_of_plan(std::uint64_t seed) {
+    return impl_->hash_of_plan(seed);
 }
 
 const FramePlan& WalkSession::plan() const {
