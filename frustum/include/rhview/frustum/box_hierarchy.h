@@ -70,8 +70,8 @@ class BoxHierarchy {
     [[nodiscard]] BoxSpans boxes() const { return boxes_.spans(); }  ///< in the order
 
     /// Takes new boxes of the same objects, by id, and keeps the tree: right whatever moved, slower where
-    /// neighbours parted. Cost: a comparison of all boxes in a row, about 2 ns each, and about 30 ns for each
-    /// that moved; no allocation.
+    /// neighbours parted. Cost: all boxes are compared in a row, with those that are held; what moved, and
+    /// the nodes above it, is taken. No allocation.
     void refit(std::span<const Aabb> boxes);
 
     /// Replaces `visible` by the ranges that are not outside, in order, with gaps between them. A plane that
