@@ -295,7 +295,7 @@ void Executor::prepare_late(const FramePlan& plan, const SceneBuffers& scene, co
     if (places_.empty()) return;
     options.late.prepare(options.late.context, places_);
     objects_->place_late(plan, places_, scene, view, options.placements);
-    RHVIEW_ASSERT(objects_->largest_growth() <= options.late.largest_growth);
+    RHVIEW_ASSERT(objects_->largest_growth() <= asked_growth_);
     tests_->command_late(*objects_);
 }
 
@@ -314,8 +314,9 @@ FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, c
     }
     const QueryStateGuard query_guard;
     if (options.counter != nullptr) options.counter->pause();
-    tests_->ask(plan, scene, view, *objects_, late ? options.late.largest_growth : objects_->largest_growth(),
-                counters);
+    asked_growth_ = objects_->largest_growth();
+    if (late) asked_growth_ = std::max(asked_growth_, options.late.largest_growth);
+    tests_->ask(plan, scene, view, *objects_, asked_growth_, counters);
     if (options.counter != nullptr) options.counter->resume();
     query_guard.put_back_raster_state();
     begin(view);

@@ -78,7 +78,7 @@ Result<ObjectDrawer> ObjectDrawer::create(const char* fragment_shader) {
     return drawer;
 }
 
-void ObjectDrawer::place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool conditional,
+void ObjectDrawer::place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool asks,
                              InstanceData& data) {
     const glm::dmat3 linear(scene_from_mesh), inverse(glm::inverse(linear));
     const SplitPosition split = split_position(inverse * (eye.position - glm::dvec3(scene_from_mesh[3])));
@@ -92,7 +92,7 @@ void ObjectDrawer::place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, 
     data.eye_high = split.high;
     data.eye_low = split.low;
     data.handedness = glm::determinant(linear) < 0.0 ? -1.0f : 1.0f;
-    if (conditional) largest_growth_ = std::max(largest_growth_, rounding_growth(linear, inverse));
+    if (asks) largest_growth_ = std::max(largest_growth_, rounding_growth(linear, inverse));
 }
 
 void ObjectDrawer::append(std::vector<ObjectRun>& runs, const ObjectRun& one) {
@@ -107,25 +107,26 @@ void ObjectDrawer::append(std::vector<ObjectRun>& runs, const ObjectRun& one) {
 }
 
 struct ObjectDrawer::Ground {
-    Ground(const SceneBuffers& buffers, const View& view, std::span<const glm::dmat4> given)
+    Ground(const SceneBuffers& buffers, const View& view, std::span<const glm::dmat4> given, bool is_asked)
         : scene(buffers),
           eye(view, buffers.origin()),
-          placements(given.empty() ? buffers.placements() : given) {
+          placements(given.empty() ? buffers.placements() : given),
+          asks(is_asked) {
         RHVIEW_ASSERT(placements.size() >= scene.object_meshes().size());
     }
 
     const SceneBuffers& scene;
     Eye eye;
     std::span<const glm::dmat4> placements;
+    bool asks;  ///< something is asked in this frame
 };
 
-void ObjectDrawer::add(const Ground& ground, std::vector<ObjectRun>& runs, const ConditionalObject& object,
-                       bool conditional) {
+void ObjectDrawer::add(const Ground& ground, std::vector<ObjectRun>& runs, const ConditionalObject& object) {
     const std::size_t id = index_of(object.object);
     const std::uint32_t mesh = ground.scene.object_meshes()[id];
     const auto place = static_cast<std::uint32_t>(data_.size());
     InstanceData& data = data_.emplace_back();
-    place_one(ground.eye, ground.placements[id], conditional, data);
+    place_one(ground.eye, ground.placements[id], ground.asks, data);
     append(runs, {&ground.scene.meshes()[mesh], ground.scene.level_range(mesh, object.level), place, 1,
                   object.query, object.level, data.handedness < 0.0f});
 }
@@ -133,22 +134,22 @@ void ObjectDrawer::add(const Ground& ground, std::vector<ObjectRun>& runs, const
 void ObjectDrawer::add_conditional(const Ground& ground, std::span<const ConditionalObject> objects,
                                    std::size_t count, const auto& place_of) {
     conditional_.clear();
-    largest_growth_ = 1.0;
     for (std::size_t i = 0; i < count; ++i) {
         if (i + kPrefetchSteps < count)
             prefetch(&ground.placements[index_of(objects[place_of(i + kPrefetchSteps)].object)]);
-        add(ground, conditional_, objects[place_of(i)], true);
+        add(ground, conditional_, objects[place_of(i)]);
     }
 }
 
 void ObjectDrawer::place(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                          std::span<const glm::dmat4> placements, bool late) {
     RHVIEW_ASSERT(plan.object_levels.empty() || plan.object_levels.size() == plan.objects.size());
-    const Ground ground(scene, view, placements);
+    const Ground ground(scene, view, placements, !plan.queries.empty());
+    if (ground.asks) largest_growth_ = std::max(largest_growth_, scene.largest_growth());
     data_.clear();
     at_once_.clear();
     for (std::size_t i = 0; i < plan.objects.size(); ++i)
-        add(ground, at_once_, {plan.objects[i], 0, plan.level_of_object(i)}, false);
+        add(ground, at_once_, {plan.objects[i], 0, plan.level_of_object(i)});
     add_conditional(ground, plan.conditional_objects, late ? 0 : plan.conditional_objects.size(),
                     [](std::size_t i) { return i; });
     if (!data_.empty()) upload();
@@ -158,7 +159,7 @@ void ObjectDrawer::place_late(const FramePlan& plan, std::span<const std::uint32
                               const SceneBuffers& scene, const View& view,
                               std::span<const glm::dmat4> placements) {
     data_.clear();
-    add_conditional(Ground(scene, view, placements), plan.conditional_objects, places.size(),
+    add_conditional(Ground(scene, view, placements, true), plan.conditional_objects, places.size(),
                     [&](std::size_t i) { return places[i]; });
     if (!data_.empty()) upload();
 }

@@ -66,7 +66,9 @@ class ObjectDrawer {
                     const View& view, std::span<const glm::dmat4> placements);
     [[nodiscard]] std::span<const ObjectRun> at_once() const { return at_once_; }
     [[nodiscard]] std::span<const ObjectRun> conditional() const { return conditional_; }
-    /// The largest `rounding_growth` of conditional objects.
+    /// The largest `rounding_growth` of any object that queries can be about: of the scenes that were asked
+    /// about, and of all that was placed when something was asked. It never falls, since a plan need not name
+    /// what its queries are about: latent mode leaves out what they say of objects that it drew earlier.
     [[nodiscard]] double largest_growth() const { return largest_growth_; }
 
     void begin(const std::optional<glm::vec3>& colour) const;
@@ -77,11 +79,10 @@ class ObjectDrawer {
     struct Eye;
     /// What objects are placed from.
     struct Ground;
-    void add(const Ground& ground, std::vector<ObjectRun>& runs, const ConditionalObject& object,
-             bool conditional);
+    void add(const Ground& ground, std::vector<ObjectRun>& runs, const ConditionalObject& object);
     void add_conditional(const Ground& ground, std::span<const ConditionalObject> objects, std::size_t count,
                          const auto& place_of);
-    void place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool conditional, InstanceData& data);
+    void place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool asks, InstanceData& data);
     static void append(std::vector<ObjectRun>& runs, const ObjectRun& one);
     void upload() const;
 

@@ -18,7 +18,7 @@ GLenum target_of(bool counts_samples) {
 }
 
 std::uint64_t read_result(std::uint32_t name) {
-    GLuint64 samples = 0;
+    GLuint64 samples = 1;  // stays where a lost context says "available" and writes nothing
     glGetQueryObjectui64v(name, GL_QUERY_RESULT, &samples);
     return samples;
 }

@@ -10,6 +10,7 @@
 
 #include "attributes.h"
 #include "rhview/gl/context.h"
+#include "rhview/pipeline/query_boxes.h"
 #include "state_guard.h"
 
 namespace rhview::gl {
@@ -141,6 +142,7 @@ void SceneBuffers::list_objects(const Scene& scene, std::span<const std::uint32_
     for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
         object_meshes_.push_back(static_cast<std::uint32_t>(scene.object_mesh(ObjectId{i})));
         placements_.push_back(scene.object_placement(ObjectId{i}));
+        largest_growth_ = std::max(largest_growth_, rounding_growth(placements_.back()));
     }
 }
 

@@ -103,10 +103,23 @@ void MovingObjects::remove(ObjectId object) {
     std::ranges::push_heap(free_, std::greater());
 }
 
+void MovingObjects::restart_clock(double time_s) {
+    // Before anything that the new clock will show: no object can have been too fast since.
+    constexpr double kLongAgoS = 1e12;
+    if (std::isfinite(time_s)) time_s_ = time_s;
+    expiries_.clear();
+    for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+        slots_[i].told_s = time_s_ - kLongAgoS;
+        if (is_alive(i)) wake(i);
+    }
+}
+
 void MovingObjects::begin_frame(double time_s) {
-    RHVIEW_ASSERT(time_s >= time_s_);
-    time_s_ = time_s;
-    while (!expiries_.empty() && expiries_.front().until_s <= time_s) {
+    const bool is_later = std::isfinite(time_s) && time_s >= time_s_;
+    RHVIEW_ASSERT(is_later);
+    if (!is_later) restart_clock(time_s);
+    if (is_later) time_s_ = time_s;
+    while (!expiries_.empty() && expiries_.front().until_s <= time_s_) {
         const Expiry expiry = expiries_.front();
         std::ranges::pop_heap(expiries_, later);
         expiries_.pop_back();

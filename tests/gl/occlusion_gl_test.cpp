@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "any_target.h"
 #include "occlusion_fixture.h"
 
 namespace rhview::gl {
@@ -190,96 +191,57 @@ TEST_P(ViewCases, conditional_objects_leave_the_depths_of_drawing_them_all) {
     EXPECT_LT(hidden, asked);
 }
 
+// As latent mode asks about what it left out: nothing hangs on the answer.
+TEST_P(ViewCases, objects_that_are_asked_about_and_not_drawn_are_seen_where_they_would_show) {
+    const auto [depth, far] = GetParam();
+    Uniform uniform(85);
+    SceneBuilder builder;
+    const MaterialId material = builder.add_material({"", glm::vec3(0.8f), true, false});
+    const MeshId mesh = builder.add_mesh(material, triangle_piece()).value();
+    // Turned, then squashed: what rounds in their own space is much in the scene's.
+    const glm::dmat4 squashed = glm::scale(glm::dmat4(1.0), {1.0, 0.01, 30.0});
+    for (int i = 0; i < 200; ++i) {
+        glm::dmat4 place = glm::translate(squashed, uniform.point(36.0));
+        place = glm::rotate(place, uniform(0, 6), glm::normalize(uniform.point(1.0) + 1.1));
+        place = glm::scale(place, glm::dvec3(uniform.log(0.3, 6.0)));
+        builder.add_dynamic(mesh, glm::translate(place, glm::dvec3(0, 0, 5)));
+    }
+    const Scene scene = builder.finish("squashed").value();
+    const SceneBuffers buffers = SceneBuffers::upload(scene).value();
+    FramePlan asking;
+    for (std::uint32_t i = 0; i < scene.dynamic_objects.size(); ++i) {
+        if (i % 2 == 0) {
+            asking.objects.push_back(ObjectId{i});
+            continue;
+        }
+        const auto box = static_cast<std::uint32_t>(asking.query_boxes.size());
+        asking.queries.push_back(
+            {i, box, 1, i % 4 == 1 ? QueryWay::BoxPass : QueryWay::HardwareQuery, false});
+        asking.query_boxes.push_back(
+            transform_box(scene.dynamic_objects[i].scene_from_mesh, scene.meshes[0].bounds));
+    }
+    std::size_t seen = 0, hidden = 0;
+    for (int v = 0; v < 60; ++v) {
+        const glm::dvec3 eye = uniform.point(45.0);
+        const View view = view_at(eye, uniform.point(12.0) - eye, depth, far);
+        const std::vector<float> without = depths_of(asking, buffers, view);
+        FramePlan with;
+        with.objects = asking.objects;
+        for (const auto& [object, answer] : answers()) {
+            if (!answer.visible) with.objects.push_back(ObjectId{static_cast<std::uint32_t>(object)});
+            seen += answer.visible ? 1 : 0;
+        }
+        hidden += with.objects.size() - asking.objects.size();
+        EXPECT_EQ(count_missing_pixels(depths_of(with, buffers, view), without), 0u) << v;
+    }
+    EXPECT_GT(hidden, 100u);
+    EXPECT_GT(seen, 100u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Depths, ViewCases,
                          testing::Values(ViewCase{ClipDepth::NegativeOneToOne, 1e5},
                                          ViewCase{ClipDepth::ZeroToOne, 1e5},
                                          ViewCase{ClipDepth::ReversedZeroToOne, kInfinity}));
-
-/// A target of any depth format and number of samples, and its depths: sample after sample.
-class AnyTarget {
-  public:
-    AnyTarget(GLenum depth_format, int samples) : samples_(samples) {
-        glGenTextures(1, &depth_);
-        glBindTexture(target(), depth_);
-        if (samples_ > 1)
-            glTexStorage2DMultisample(target(), samples_, depth_format, kWidth, kHeight, GL_TRUE);
-        else
-            glTexStorage2D(target(), 1, depth_format, kWidth, kHeight);
-        glGenFramebuffers(1, &framebuffer_);
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-        glFramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth_, 0);
-        EXPECT_EQ(glCheckFramebufferStatus(GL_FRAMEBUFFER), static_cast<GLenum>(GL_FRAMEBUFFER_COMPLETE));
-    }
-    ~AnyTarget() {
-        glDeleteFramebuffers(1, &framebuffer_);
-        glDeleteTextures(1, &depth_);
-        glDeleteProgram(program_);
-        glDeleteVertexArrays(1, &vertex_array_);
-    }
-    AnyTarget(const AnyTarget&) = delete;
-    AnyTarget& operator=(const AnyTarget&) = delete;
-
-    void begin(ClipDepth depth) const {
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-        glViewport(0, 0, kWidth, kHeight);
-        const GLfloat farthest = depth == ClipDepth::ReversedZeroToOne ? 0.0f : 1.0f;
-        glClearBufferfv(GL_DEPTH, 0, &farthest);
-    }
-
-    /// Copies each sample's depth into `scratch` and reads it there.
-    std::vector<float> read(RenderTarget& scratch) {
-        std::vector<float> all, one;
-        if (program_ == 0) make_program();
-        glBindTexture(target(), depth_);
-        for (int sample = 0; sample < samples_; ++sample) {
-            scratch.begin(ClipDepth::NegativeOneToOne, glm::vec3(0));
-            glUseProgram(program_);
-            glBindVertexArray(vertex_array_);
-            glUniform1i(glGetUniformLocation(program_, "number"), sample);
-            glEnable(GL_DEPTH_TEST);
-            glDepthFunc(GL_ALWAYS);
-            glDrawArrays(GL_TRIANGLES, 0, 3);
-            scratch.read_depth(one);
-            all.insert(all.end(), one.begin(), one.end());
-        }
-        glUseProgram(0);
-        glBindVertexArray(0);
-        glDisable(GL_DEPTH_TEST);
-        glDepthFunc(GL_LESS);
-        return all;
-    }
-
-  private:
-    static constexpr int kWidth = 160, kHeight = 120;
-
-    [[nodiscard]] GLenum target() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
-
-    void make_program() {
-        const char* const vertex =
-            "#version 430 core\nvoid main() {"
-            "gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1);}";
-        const char* const multi =
-            "#version 430 core\nuniform sampler2DMS image; uniform int number;"
-            "void main() { gl_FragDepth = texelFetch(image, ivec2(gl_FragCoord.xy), number).r; }";
-        const char* const single =
-            "#version 430 core\nuniform sampler2D image; uniform int number;"
-            "void main() { gl_FragDepth = texelFetch(image, ivec2(gl_FragCoord.xy), number).r; }";
-        program_ = glCreateProgram();
-        for (const auto& [stage, source] :
-             {std::pair{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, samples_ > 1 ? multi : single}}) {
-            const GLuint shader = glCreateShader(static_cast<GLenum>(stage));
-            glShaderSource(shader, 1, &source, nullptr);
-            glCompileShader(shader);
-            glAttachShader(program_, shader);
-            glDeleteShader(shader);
-        }
-        glLinkProgram(program_);
-        glGenVertexArrays(1, &vertex_array_);
-    }
-
-    int samples_;
-    GLuint framebuffer_ = 0, depth_ = 0, program_ = 0, vertex_array_ = 0;
-};
 
 struct TargetCase {
     GLenum format;

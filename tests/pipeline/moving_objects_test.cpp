@@ -199,6 +199,59 @@ TEST(MovingObjects, a_broken_promise_is_asserted_and_the_object_is_new_again) {
     EXPECT_EQ(input.object_boxes[0], box_at({11.0, 0, 0}));
 }
 
+// What is asleep must not go on where a clock that jumped back thinks it is.
+TEST(MovingObjects, all_are_due_when_a_clock_jumps_back_or_has_no_number) {
+    const AssertHandler before = set_assert_handler(count_assert);
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (const double jump : {-5.0, 9.0, std::numeric_limits<double>::quiet_NaN(), -kInfinity, kInfinity}) {
+        asserts = 0;
+        MovingObjects objects;
+        for (int i = 0; i < 4; ++i) objects.add(kUnitBox, 0, i == 3 ? 0.0 : 2.0);
+        objects.remove(ObjectId{2});
+        objects.begin_frame(10.0);
+        objects.end_frame({});
+        ASSERT_TRUE(objects.is_asleep(ObjectId{0}));
+        objects.begin_frame(jump);
+        for (const std::uint32_t object : {0u, 1u, 3u}) {
+            ASSERT_TRUE(is_due(objects, ObjectId{object})) << jump;
+            objects.move(ObjectId{object}, object == 3 ? kUnitBox : box_at({300.0, 0, 0}));
+        }
+        EXPECT_EQ(objects.due().size(), 3u);
+        EXPECT_EQ(objects.broken_promises(), 0u) << jump;
+#if RHVIEW_ENABLE_ASSERTS
+        EXPECT_EQ(asserts, 1);
+#endif
+        // From then on it is a clock like any other.
+        objects.end_frame({});
+        const double now = std::isfinite(jump) ? jump : 10.0;
+        objects.begin_frame(now + 0.01);
+        EXPECT_TRUE(objects.is_asleep(ObjectId{0})) << jump;
+        const Aabb volume = volume_of(objects, ObjectId{0});
+        EXPECT_GT(volume.max.x, 300.5f);
+        EXPECT_LT(volume.max.x, 310.0f) << jump;
+        objects.begin_frame(now + 1000.0);
+        EXPECT_TRUE(is_due(objects, ObjectId{0}));
+    }
+    set_assert_handler(before);
+}
+
+TEST(MovingObjects, a_clock_that_stands_still_or_jumps_forward_keeps_promises) {
+    MovingObjects objects;
+    const ObjectId object = objects.add(kUnitBox, 0, 2.0);
+    objects.begin_frame(1.0);
+    objects.end_frame({});
+    const Aabb volume = volume_of(objects, object);
+    for (int i = 0; i < 100; ++i) {
+        objects.begin_frame(1.0);
+        objects.end_frame({});
+        EXPECT_EQ(volume_of(objects, object), volume);
+    }
+    objects.begin_frame(1e9);
+    ASSERT_TRUE(is_due(objects, object));
+    objects.move(object, box_at({1.9e9, 0, 0}));
+    EXPECT_EQ(objects.broken_promises(), 0u);
+}
+
 TEST(MovingObjects, one_that_leaves_its_range_is_asserted_and_has_none_from_then_on) {
     const AssertHandler before = set_assert_handler(count_assert);
     asserts = 0;

@@ -44,6 +44,18 @@ TEST(FrameBudget, what_is_no_time_is_ignored) {
     EXPECT_DOUBLE_EQ(budget.margin(), 1.5);
 }
 
+// A machine that slept, or a clock that was set: a time that is a number, and nonsense.
+TEST(FrameBudget, a_clock_that_jumped_is_forgotten_with_its_frames) {
+    FrameBudget budget(std::nullopt);
+    for (int i = 0; i < 200; ++i) budget.observe(1e6, 1.1e6);
+    const double usual = budget.margin();
+    budget.observe(1e6, 3.6e15);
+    budget.observe(1e6, 1e-3);
+    EXPECT_TRUE(std::isfinite(budget.margin()));
+    for (int i = 0; i < 1000; ++i) budget.observe(1e6, 1.1e6);
+    EXPECT_DOUBLE_EQ(budget.margin(), usual);
+}
+
 TEST(FrameBudget, holds_for_the_promised_share_of_frames_like_those_before) {
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
         Uniform uniform(seed);

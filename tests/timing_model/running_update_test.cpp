@@ -113,6 +113,17 @@ TEST(RunningUpdate, samples_that_mean_nothing_are_counted_and_change_nothing) {
     EXPECT_EQ(update.profile().constants(), before);
 }
 
+TEST(RunningUpdate, a_clock_that_jumps_now_and_then_changes_nothing) {
+    RunningUpdate update(calibrated());
+    const std::vector<Sample> samples = samples_of(kCoreMachine, Combination::Sum, 400, 0.03, 21);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        update.observe(samples[i]);
+        if (i % 40 == 20) update.observe({samples[i].work, i % 80 == 20 ? 3.6e15 : 1e-3});
+        ASSERT_TRUE(std::isfinite(update.predict_ns(samples[i].work)));
+    }
+    EXPECT_NEAR(update.profile().c3_ns, 400.0, 40.0);
+}
+
 TEST(RunningUpdate, constants_never_become_negative_and_come_back) {
     TimingProfile profile;  // nothing is known of its errors
     profile.c0_ns = 50e3;

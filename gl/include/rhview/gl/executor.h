@@ -163,6 +163,7 @@ class Executor {
     std::vector<const void*> offsets_;
     std::vector<DrawRange> run_;         ///< scratch: ranges that hang on one query
     std::vector<std::uint32_t> places_;  ///< scratch: late objects that are left
+    double asked_growth_ = 1.0;          ///< what boxes were widened for
     std::unique_ptr<ObjectDrawer> objects_;
     std::unique_ptr<OcclusionTests> tests_;
 };

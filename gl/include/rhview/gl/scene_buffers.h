@@ -63,6 +63,8 @@ class SceneBuffers {
     [[nodiscard]] std::span<const glm::dmat4> placements() const { return placements_; }
     /// The indices of a mesh at a level of detail; the coarsest where there is no such level.
     [[nodiscard]] LevelRange level_range(std::uint32_t mesh, std::uint32_t level) const;
+    /// The largest `rounding_growth` of `placements`.
+    [[nodiscard]] double largest_growth() const { return largest_growth_; }
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   private:
@@ -83,6 +85,7 @@ class SceneBuffers {
     std::vector<std::uint32_t> object_meshes_;
     std::vector<glm::dmat4> placements_;
     glm::dvec3 origin_{0.0};
+    double largest_growth_ = 1.0;
     std::uint64_t bytes_ = 0;
 };
 

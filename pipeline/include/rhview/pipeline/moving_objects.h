@@ -61,7 +61,8 @@ class MovingObjects {
     }
     /// Its number is free again at once.
     void remove(ObjectId object);
-    /// Times never fall.
+    /// Times are finite and never fall. Where a clock jumps back all the same, or has no number, that is
+    /// asserted, and all objects are due; by one that stands still nothing expires.
     void begin_frame(double time_s);
     /// The objects that must be moved now, each once: those awake, and those whose volumes expired.
     [[nodiscard]] std::span<const ObjectId> due() const { return awake_; }
@@ -111,6 +112,7 @@ class MovingObjects {
     void put(ObjectId object, const Aabb& box);
     [[nodiscard]] bool keeps_range(std::size_t object, const Aabb& box);
     void break_promise();
+    void restart_clock(double time_s);
     [[nodiscard]] Aabb volume_until(std::uint32_t object, double until_s) const;
     void wake(std::uint32_t object);
     void see(const FramePlan& plan);
