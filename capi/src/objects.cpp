@@ -126,8 +126,10 @@ rhview_status rhview_scene_due_objects(rhview_scene* scene, const uint32_t** num
     return guarded([&] {
         if (scene == nullptr || numbers == nullptr || count == nullptr) return fail_null();
         scene->state->due.clear();
+        // What was removed in this frame stays on the planner's list until the next one.
         for (const rhview::ObjectId object : scene->state->objects.due())
-            scene->state->due.push_back(static_cast<std::uint32_t>(object));
+            if (scene->state->has_object[rhview::index_of(object)])
+                scene->state->due.push_back(static_cast<std::uint32_t>(object));
         *numbers = scene->state->due.data();
         *count = scene->state->due.size();
         return rhview_status{RHVIEW_OK};

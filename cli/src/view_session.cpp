@@ -200,6 +200,7 @@ Status ViewSession::change(const WalkOptions& wanted) {
     if (status) return success();
     stage_->options = before;
     if (const Status again = stage_->session->restart(); !again) return again;
+    // cppcheck-suppress identicalConditionAfterEarlyExit ; a Status is false where it is an error
     return status;
 }
 

@@ -127,6 +127,17 @@ TEST_F(Crowd, hidden_objects_that_keep_to_a_range_need_not_be_moved_again) {
     EXPECT_LT(last_captive_move, 1000);
 }
 
+TEST_F(Crowd, an_object_that_was_removed_in_this_frame_is_not_due) {
+    const std::uint32_t first = add(box_at(10, 0, 0), 0.0);
+    const std::uint32_t second = add(box_at(12, 0, 0), 0.0);
+    EXPECT_OK(rhview_scene_begin_frame(scene, 1.0));
+    EXPECT_OK(rhview_scene_remove_object(scene, first));
+    const std::uint32_t* numbers = nullptr;
+    std::size_t count = 0;
+    EXPECT_OK(rhview_scene_due_objects(scene, &numbers, &count));
+    EXPECT_EQ(std::vector(numbers, numbers + count), std::vector{second});
+}
+
 TEST_F(Crowd, views_tell_what_they_show) {
     add(box_at(10, 0, 0), 0.0);
     add(box_at(30, 0, 0), 0.0);
