@@ -5,7 +5,7 @@
 # Builds the fuzzers with Clang and runs each for as long as told, one after the other; what one finds ends the script
 # and stays in build/fuzz. The last lines of each give its executions.
 #
-# usage: scripts/fuzz.sh [SECONDS [TARGET …]]      (600 seconds each of all: rho profile path scene_parameters obj ply gltf)
+# usage: scripts/fuzz.sh [SECONDS [TARGET …]]      (600 seconds each of all: rho profile path scene_parameters obj ply gltf c_api)
 
 set -euo pipefail
 
@@ -15,7 +15,7 @@ if [[ ! "$seconds" =~ ^[1-9][0-9]*$ ]]; then
     echo "fuzz: '$seconds' is no number of seconds; usage: scripts/fuzz.sh [SECONDS [TARGET …]]" >&2
     exit 2
 fi
-targets=(rho profile path scene_parameters obj ply gltf)
+targets=(rho profile path scene_parameters obj ply gltf c_api)
 if (($# > 1)); then
     targets=("${@:2}")
 fi

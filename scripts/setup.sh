@@ -14,6 +14,8 @@ packages=(
     g++ gcc cmake ninja-build git python3 pkg-config clang-format dpkg-dev groff-base
     # the fuzzer: Clang, its sanitizers and libFuzzer
     clang libclang-rt-dev
+    # static analysis
+    cppcheck clang-tidy
     # the core
     libglm-dev libtbb-dev libmeshoptimizer-dev libhwy-dev
     # the timing model, to build it only

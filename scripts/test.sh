@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The rhview authors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds and tests: optimised with warnings as errors, then with the sanitizers; then two
-# minutes of fuzzing, and views planned on several threads with the thread sanitizer.
+# Installs what is missing, looks through the sources with cppcheck, builds and tests: optimised with warnings as
+# errors, then with the sanitizers; then two minutes of fuzzing, and views planned on several threads with the thread sanitizer.
 # Stops at the first step that fails; the last lines are CTest's own summary.
 #
 # usage: scripts/test.sh [--release-only | --asan-only | --fuzz-only | --tsan-only]
@@ -50,6 +50,10 @@ if command -v ccache >/dev/null && [[ -z "${CMAKE_CXX_COMPILER_LAUNCHER-}" ]]; t
 fi
 
 cd "$root"
+if [[ -z "${1-}" || "$1" == --release-only ]]; then
+    phase "lint: cppcheck"
+    scripts/lint.sh --cppcheck
+fi
 for preset in "${presets[@]}"; do
     phase "$preset: configure"
     cmake --preset "$preset" </dev/null

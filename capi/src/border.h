@@ -38,6 +38,13 @@ rhview_status guarded(Body&& body) noexcept {
 /// Larger than any structure will ever be: another size is a mistake.
 inline constexpr std::size_t kLargestStruct = 4096;
 
+/// Whether a structure can have this size in any version: one that is cut within a field has not, and a part
+/// of a pointer would point anywhere.
+template <class Struct>
+constexpr bool can_be_size(std::size_t size) {
+    return size >= sizeof(std::size_t) && size <= kLargestStruct && size % alignof(Struct) == 0;
+}
+
 /// "rhview_batch: indices is null".
 rhview_status fail_field(const char* name, std::initializer_list<const char*> wrong) noexcept;
 rhview_status fail_size(const char* name, std::size_t size) noexcept;
@@ -49,7 +56,7 @@ rhview_status take(const Struct* given, const char* name, Struct& taken) noexcep
     taken.size = sizeof(Struct);
     if (given == nullptr) return RHVIEW_OK;
     const std::size_t size = given->size;
-    if (size < sizeof(std::size_t) || size > kLargestStruct) return fail_size(name, size);
+    if (!can_be_size<Struct>(size)) return fail_size(name, size);
     const auto* bytes = reinterpret_cast<const unsigned char*>(given);
     for (std::size_t i = sizeof(Struct); i < size; ++i)
         if (bytes[i] != 0) return fail_size(name, size);
@@ -63,7 +70,7 @@ template <class Struct>
 rhview_status give(const Struct& full, const char* name, Struct* out) noexcept {
     if (out == nullptr) return fail(RHVIEW_INVALID_ARGUMENT, "there is no structure to fill: it is null");
     const std::size_t size = out->size;
-    if (size < sizeof(std::size_t) || size > kLargestStruct) return fail_size(name, size);
+    if (!can_be_size<Struct>(size)) return fail_size(name, size);
     auto* bytes = reinterpret_cast<unsigned char*>(out);
     std::memcpy(bytes, &full, std::min(size, sizeof(Struct)));
     for (std::size_t i = sizeof(Struct); i < size; ++i) bytes[i] = 0;

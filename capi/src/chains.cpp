@@ -88,6 +88,8 @@ rhview_status save(const std::vector<LodChain>& chains, const char* file) {
 }
 
 rhview_chain exported(const LodChain& chain) {
+    // Equal is what they have to be.
+    // NOLINTNEXTLINE(misc-redundant-expression)
     static_assert(sizeof(rhview_level) == sizeof(LodLevel) && alignof(rhview_level) == alignof(LodLevel) &&
                   offsetof(rhview_level, error) == offsetof(LodLevel, error) &&
                   offsetof(rhview_level, is_sloppy) == offsetof(LodLevel, sloppy));

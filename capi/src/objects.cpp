@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include <cmath>
-#include <limits>
 
 #include "border.h"
 #include "scene.h"
@@ -54,13 +53,20 @@ rhview_status place_object(rhview_scene* scene, std::uint32_t number, const rhvi
     });
 }
 
+MotionPromise promise_of(const rhview_object& object) {
+    MotionPromise promise;
+    if (object.top_speed > 0.0) promise.top_speed = object.top_speed;
+    if (object.has_range != 0) promise.range = aabb_of(object.range);
+    return promise;
+}
+
 LevelledObject levelled_of(const rhview_object& object) {
     if (object.has_chain == 0) return {};
     return {object.chain, object.scale == 0.0 ? 1.0f : static_cast<float>(object.scale)};
 }
 
 rhview_status add_object(Scene& scene, const rhview_object& object, std::uint32_t& number) {
-    if (!is_box(object.box)) return fail_box();
+    if (!is_box(object.box) || (object.has_range != 0 && !is_box(object.range))) return fail_box();
     if (!(object.top_speed >= 0.0))
         return fail(RHVIEW_INVALID_ARGUMENT, "rhview_object: top_speed is negative or no number");
     if (!(object.scale >= 0.0 && std::isfinite(object.scale)))
@@ -70,9 +76,8 @@ rhview_status add_object(Scene& scene, const rhview_object& object, std::uint32_
     if (scene.object_count == scene.max_objects())
         return fail(RHVIEW_WRONG_STATE,
                     "there are as many objects as rhview_scene_options::max_objects allows");
-    const double top_speed =
-        object.top_speed > 0.0 ? object.top_speed : std::numeric_limits<double>::infinity();
-    number = static_cast<std::uint32_t>(scene.objects.add(aabb_of(object.box), object.group, top_speed));
+    number =
+        static_cast<std::uint32_t>(scene.objects.add(aabb_of(object.box), object.group, promise_of(object)));
     scene.object_indices[number] = object.index_count;
     scene.levelled[number] = levelled_of(object);
     for (View* view : scene.views) view->set_levelled(ObjectId{number}, scene.levelled[number]);
@@ -121,8 +126,10 @@ rhview_status rhview_scene_due_objects(rhview_scene* scene, const uint32_t** num
     return guarded([&] {
         if (scene == nullptr || numbers == nullptr || count == nullptr) return fail_null();
         scene->state->due.clear();
+        // What was removed in this frame stays on the planner's list until the next one.
         for (const rhview::ObjectId object : scene->state->objects.due())
-            scene->state->due.push_back(static_cast<std::uint32_t>(object));
+            if (scene->state->has_object[rhview::index_of(object)])
+                scene->state->due.push_back(static_cast<std::uint32_t>(object));
         *numbers = scene->state->due.data();
         *count = scene->state->due.size();
         return rhview_status{RHVIEW_OK};

@@ -24,8 +24,8 @@ double mean_speed(const CameraPath& path) {
 
 }  // namespace
 
-FlyCamera::FlyCamera(const CameraPath& path) : speed(mean_speed(path)), path_(path) {
-    up_ = glm::normalize(path.up);
+FlyCamera::FlyCamera(const CameraPath& path)
+    : speed(mean_speed(path)), path_(path), up_(glm::normalize(path.up)) {
     const glm::dvec3 other = std::abs(up_.z) < 0.9 ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(1.0, 0.0, 0.0);
     north_ = glm::normalize(other - up_ * glm::dot(other, up_));
     east_ = glm::cross(north_, up_);

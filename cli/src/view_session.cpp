@@ -200,6 +200,7 @@ Status ViewSession::change(const WalkOptions& wanted) {
     if (status) return success();
     stage_->options = before;
     if (const Status again = stage_->session->restart(); !again) return again;
+    // cppcheck-suppress identicalConditionAfterEarlyExit ; a Status is false where it is an error
     return status;
 }
 
@@ -287,8 +288,8 @@ Status ViewSession::draw(std::uint32_t held, double step_s) {
     const FrameCameras cameras = next_cameras(held, step_s);
     WalkSession& session = *stage_->session;
     remember(session.draw(cameras));
-    if (recording_) recording_->hash = plan_hash(session.plan(), recording_->hash);
-    if (replay_) replay_->hash = plan_hash(session.plan(), replay_->hash);
+    if (recording_) recording_->hash = session.hash_of_plan(recording_->hash);
+    if (replay_) replay_->hash = session.hash_of_plan(replay_->hash);
     if (frozen_ || colours_) {
         PlanMarks shown = marks;
         shown.frustum = marks.frustum && frozen_.has_value();

@@ -12,6 +12,7 @@ namespace {
 
 std::uint64_t distinct(std::vector<std::uint32_t> numbers) {
     std::ranges::sort(numbers);
+    // cppcheck-suppress mismatchingContainerExpression ; std::ranges::unique gives a part of `numbers`
     return static_cast<std::uint64_t>(std::ranges::unique(numbers).begin() - numbers.begin());
 }
 

@@ -8,6 +8,12 @@
 #include "level_chains.h"
 
 namespace rhview::cli {
+namespace {
+
+/// Frames in which what hangs on queries is priced once: its level changes in seconds.
+constexpr std::uint32_t kPriceTurns = 32;
+
+}  // namespace
 
 WalkLevels::WalkLevels(const Scene& scene, std::span<const LodChain> chains, const WalkOptions& options,
                        const TimingProfile* profile)
@@ -23,7 +29,7 @@ WalkLevels::WalkLevels(const Scene& scene, std::span<const LodChain> chains, con
 void WalkLevels::choose(const FrameInput& input, const TimingProfile* profile, FramePlan& plan,
                         FrameRecord& record) {
     if (budget_ && profile != nullptr) budget_->limit(plan, *profile, options_);
-    const LevelSummary chosen = levels_.choose(input, options_, plan);
+    const LevelSummary chosen = levels_.choose_at_once(input, options_, plan);
     if (budget_) budget_->decide(chosen, record);
 }
 
@@ -51,14 +57,21 @@ double WalkLevels::error_px(const FramePlan& plan, std::span<const QueryAnswer> 
     return most;
 }
 
-void WalkLevels::count_indices(const FramePlan& plan, std::vector<std::uint32_t>& object_indices) const {
-    const auto count = [&](ObjectId object) {
-        const std::size_t i = index_of(object);
-        object_indices[i] = levels_.indices(object, whole_indices_[i]);
-    };
+void WalkLevels::count_indices(const FrameInput& input, const FramePlan& plan,
+                               std::vector<std::uint32_t>& object_indices) {
     if (object_indices.empty()) return;
-    std::ranges::for_each(plan.objects, count);
-    for (const ConditionalObject& object : plan.conditional_objects) count(object.object);
+    for (const ObjectId object : plan.objects)
+        object_indices[index_of(object)] = levels_.indices(object, whole_indices_[index_of(object)]);
+    counted_.resize(whole_indices_.size(), 0);
+    ++frame_;
+    for (const ConditionalObject& hanging : plan.conditional_objects) {
+        const auto id = static_cast<std::uint32_t>(hanging.object);
+        const bool was_there = counted_[id] != 0 && frame_ - counted_[id] < kPriceTurns;
+        if (was_there && (frame_ + id) % kPriceTurns != 0) continue;
+        counted_[id] = frame_;
+        object_indices[id] = levels_.indices_at(hanging.object, levels_.level_by_bound(input, hanging.object),
+                                                whole_indices_[id]);
+    }
 }
 
 void WalkLevels::observe(const FrameRecord& record) {

@@ -25,6 +25,10 @@ class WalkLevels {
     /// Of the objects of a plan that `input` was planned to.
     /// `profile`: the constants of now; null where nothing is predicted.
     void choose(const FrameInput& input, const TimingProfile* profile, FramePlan& plan, FrameRecord& record);
+    /// Of those objects of the same plan that hang on queries and are left.
+    void choose_late(const FrameInput& input, FramePlan& plan, std::span<std::uint32_t> places) {
+        levels_.choose_late(input, plan, places);
+    }
     /// Of all objects in the frustum, by `ObjectId`, for a method that draws as it finds.
     std::span<const std::uint8_t> choose_ahead(const FrameInput& input);
     /// The levels of what such a method drew.
@@ -32,8 +36,10 @@ class WalkLevels {
 
     /// The largest error on the screen; of what hangs on queries only what they let pass.
     [[nodiscard]] double error_px(const FramePlan& plan, std::span<const QueryAnswer> answers) const;
-    /// What planners reckon that an object has, for those in `plan`.
-    void count_indices(const FramePlan& plan, std::vector<std::uint32_t>& object_indices) const;
+    /// What planners reckon that an object has, for those in `plan`: what hangs on queries is reckoned anew
+    /// when it comes into the plan, then every few frames, in turn.
+    void count_indices(const FrameInput& input, const FramePlan& plan,
+                       std::vector<std::uint32_t>& object_indices);
     void observe(const FrameRecord& record);
 
     /// Of all objects, by `ObjectId`: those of `plan`, and what the bound allows the others.
@@ -45,6 +51,8 @@ class WalkLevels {
     ObjectLevels levels_;
     std::optional<WalkBudget> budget_;
     std::vector<std::uint8_t> all_;
+    std::vector<std::uint32_t> counted_;  ///< by `ObjectId`: the frame that it was priced in last
+    std::uint32_t frame_ = 0;
 };
 
 }  // namespace rhview::cli

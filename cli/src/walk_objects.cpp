@@ -6,10 +6,24 @@
 #include <algorithm>
 
 #include "rhview/base/prefetch.h"
+#include "rhview/pipeline/query_boxes.h"
 
 namespace rhview::cli {
+namespace {
+
+/// A turn about the vertical multiplies sums of magnitudes along rows, and those of its inverse, by up to √2
+/// each; and rounding.
+constexpr double kTurning = 2.0 + 1e-9;
+
+}  // namespace
+
 WalkObjects::WalkObjects(const Scene& scene) : scene_(scene), groups_(object_groups(scene)), ways_(scene) {
     place_all(0.0);
+    for (std::size_t i = 0; i < placements_.scene_from_mesh.size(); ++i) {
+        const double growth = rounding_growth(placements_.scene_from_mesh[i]);
+        const bool turns = i < scene.dynamic_objects.size();
+        largest_growth_ = std::max(largest_growth_, turns ? kTurning * growth : growth);
+    }
 }
 
 void WalkObjects::begin(bool sleeping) {
@@ -51,15 +65,19 @@ FrameInput WalkObjects::planner_input(const View& view, glm::ivec2 viewport) con
 
 void WalkObjects::place_planned(const FramePlan& plan, double time_s) {
     if (!movers_) return;
-    const auto place = [&](std::size_t count, const auto& object_at) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (i + kPrefetchSteps < count) ways_.prefetch(object_at(i + kPrefetchSteps));
-            placements_.scene_from_mesh[index_of(object_at(i))] = ways_.placement_at(object_at(i), time_s);
-        }
-    };
-    place(plan.objects.size(), [&](std::size_t i) { return plan.objects[i]; });
-    place(plan.conditional_objects.size(), [&](std::size_t i) { return plan.conditional_objects[i].object; });
+    place(plan.objects.size(), time_s, [&](std::size_t i) { return plan.objects[i]; });
     movers_->end_frame(plan);
+}
+
+void WalkObjects::place_late(const FramePlan& plan, std::span<const std::uint32_t> places, double time_s) {
+    place(places.size(), time_s, [&](std::size_t i) { return plan.conditional_objects[places[i]].object; });
+}
+
+void WalkObjects::place(std::size_t count, double time_s, const auto& object_at) {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i + kPrefetchSteps < count) ways_.prefetch(object_at(i + kPrefetchSteps));
+        placements_.scene_from_mesh[index_of(object_at(i))] = ways_.placement_at(object_at(i), time_s);
+    }
 }
 
 std::size_t WalkObjects::count_mesh_levels(const FramePlan& plan) {

@@ -80,6 +80,12 @@ class WalkSession::Impl {
 
     [[nodiscard]] const PreparedMethod& method() const { return method_; }
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
+    std::uint64_t hash_of_plan(std::uint64_t seed) {
+        hashed_ = plan_;
+        if (objects_.are_late())
+            for (ConditionalObject& object : hashed_.conditional_objects) object.level = 0;
+        return plan_hash(hashed_, seed);
+    }
     [[nodiscard]] gl::RenderTarget& target() { return *target_; }
     [[nodiscard]] ClipDepth clip_depth() const { return clip_depth_; }
 
@@ -96,8 +102,8 @@ class WalkSession::Impl {
     Status walk(int frame) {
         FrameRecord record = draw_frame(frame);
         learn(record);
-        report_.plan_hash = plan_hash(plan_, report_.plan_hash);
         if (Status status = compare(frame, record); !status) return status;
+        report_.plan_hash = hash_of_plan(report_.plan_hash);
         report_.frames.push_back(record);
         return success();
     }
@@ -315,6 +321,8 @@ class WalkSession::Impl {
         if (levels_) choose_levels(input, record);
         record.cull_ms = timer.elapsed_ms() - moved_ms;
         objects_.place_planned(plan_, cameras.time_s);
+        LateStage late{*this, input, cameras.time_s};
+        if (objects_.are_late()) draw.late = {prepare_late, &late, objects_.largest_growth()};
         if (gpu_timer_) gpu_timer_->begin();
         work_counter_->begin();
         const gl::FrameCounters counters = executor_->draw(plan_, *buffers_, cameras.render, draw);
@@ -342,7 +350,20 @@ class WalkSession::Impl {
 
     void choose_levels(const FrameInput& input, FrameRecord& record) {
         levels_->choose(input, running_ ? &running_->profile() : nullptr, plan_, record);
-        levels_->count_indices(plan_, object_indices_);
+        levels_->count_indices(input, plan_, object_indices_);
+    }
+
+    /// What late objects are prepared from.
+    struct LateStage {
+        Impl& walk;
+        const FrameInput& input;
+        double time_s;
+    };
+    static void prepare_late(void* context, std::span<std::uint32_t> places) {
+        const LateStage& stage = *static_cast<const LateStage*>(context);
+        FramePlan& plan = stage.walk.plan_;
+        if (stage.walk.levels_) stage.walk.levels_->choose_late(stage.input, plan, places);
+        stage.walk.objects_.place_late(plan, places, stage.time_s);
     }
 
     void count_object(ObjectId id, FrameRecord& record) const {
@@ -417,6 +438,7 @@ class WalkSession::Impl {
     std::optional<gl::WorkCounter> work_counter_;
     std::optional<FrameComparison> comparison_;
     FramePlan plan_;
+    FramePlan hashed_;                  ///< scratch
     std::vector<QueryAnswer> answers_;  ///< to the queries of the frame before
     std::string why_no_occlusion_;
 };
@@ -462,6 +484,10 @@ Status WalkSession::resize(PictureSize size) {
 
 const PreparedMethod& WalkSession::method() const {
     return impl_->method();
+}
+
+std::uint64_t WalkSession::hash_of_plan(std::uint64_t seed) {
+    return impl_->hash_of_plan(seed);
 }
 
 const FramePlan& WalkSession::plan() const {

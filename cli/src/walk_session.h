@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "method.h"
@@ -54,6 +55,9 @@ class WalkSession {
     [[nodiscard]] const PreparedMethod& method() const;
     /// Of the last frame.
     [[nodiscard]] const FramePlan& plan() const;
+    /// Of the last frame as it was planned: which late objects got a level depends on which answers came in
+    /// time.
+    [[nodiscard]] std::uint64_t hash_of_plan(std::uint64_t seed);
     [[nodiscard]] gl::RenderTarget& target();
     [[nodiscard]] ClipDepth clip_depth() const;
     /// What a picture of the last frame's plan is made of. `culling` is who it was planned for; objects are

@@ -8,12 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "box_kernels.h"
 #include "hierarchy_split.h"
 #include "order_ranges.h"
 #include "rhview/base/assert.h"
-#include "rhview/base/prefetch.h"
 
 namespace rhview {
 namespace {
@@ -22,12 +22,8 @@ constexpr std::uint32_t kMaxDepth = 64;
 // From here on boxes are halved: 2^32 of them take 32 levels more.
 constexpr std::uint32_t kHalveFrom = 31;
 
-/// Without a branch per coordinate.
-bool are_same(const Aabb& a, const Aabb& b) {
-    bool same = true;
-    for (int axis = 0; axis < 3; ++axis) same &= (a.min[axis] == b.min[axis]) & (a.max[axis] == b.max[axis]);
-    return same;
-}
+/// Boxes that are compared at once: what stands still goes by at the speed of memory.
+constexpr std::size_t kCompared = 32;
 
 }  // namespace
 
@@ -96,43 +92,70 @@ BoxHierarchy::BoxHierarchy(std::span<const Aabb> boxes, const HierarchyOptions& 
     RHVIEW_ASSERT(options.max_leaf_boxes >= 1 && options.max_leaf_boxes <= 64);
     HierarchyBuilder(*this, boxes, options).build();
     boxes_.resize(boxes.size());
-    refit(boxes, true);
+    known_.resize(boxes.size());
+    find_places();
+    for (std::size_t object = 0; object < boxes.size(); ++object) take(object, boxes[object]);
+    refit_marked();
+}
+
+void BoxHierarchy::find_places() {
+    place_.resize(order_.size());
+    leaf_.resize(order_.size());
+    marked_.assign(nodes_.size(), 0);
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+        if (nodes_[i].escape != i + 1) continue;
+        for (std::uint32_t place = nodes_[i].first; place < nodes_[i].first + nodes_[i].count; ++place) {
+            place_[index_of(order_[place])] = place;
+            leaf_[index_of(order_[place])] = i;
+        }
+    }
+}
+
+void BoxHierarchy::take(std::size_t object, const Aabb& box) {
+    known_[object] = box;
+    boxes_.set(place_[object], box);
+    marked_[leaf_[object]] = 1;
+}
+
+/// To the last bit, so that what is not a number can stand still too.
+bool BoxHierarchy::take_moved(std::span<const Aabb> boxes) {
+    static_assert(sizeof(Aabb) == 6 * sizeof(float));
+    const auto same = [&](std::size_t first, std::size_t count) {
+        return std::memcmp(&known_[first], &boxes[first], count * sizeof(Aabb)) == 0;
+    };
+    bool any = false;
+    for (std::size_t first = 0; first < known_.size(); first += kCompared) {
+        const std::size_t end = std::min(first + kCompared, known_.size());
+        if (same(first, end - first)) continue;
+        any = true;
+        for (std::size_t object = first; object < end; ++object)
+            if (!same(object, 1)) take(object, boxes[object]);
+    }
+    return any;
 }
 
 void BoxHierarchy::refit(std::span<const Aabb> boxes) {
-    refit(boxes, false);
+    RHVIEW_ASSERT(boxes.size() >= known_.size());
+    if (take_moved(boxes)) refit_marked();
 }
 
-/// Where few boxes move, most leaves only have theirs compared.
-void BoxHierarchy::refit_leaf(HierarchyNode& leaf, std::span<const Aabb> boxes, bool all) {
-    const BoxSpans before = boxes_.spans();
-    bool changed = all;
-    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-        if (i + kPrefetchSteps < order_.size()) prefetch(&boxes[index_of(order_[i + kPrefetchSteps])]);
-        const Aabb& box = boxes[index_of(order_[i])];
-        if (are_same(before[i], box)) continue;
-        boxes_.set(i, box);
-        changed = true;
-    }
-    if (!changed) return;
-    leaf.bounds = {};
-    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
-        leaf.bounds.grow(bounds_for_hierarchy(boxes[index_of(order_[i])]));
-}
-
-void BoxHierarchy::refit(std::span<const Aabb> boxes, bool all) {
-    // Children stand behind their parents.
+/// The marked leaves and what is above them. Children stand behind their parents.
+void BoxHierarchy::refit_marked() {
     for (std::size_t i = nodes_.size(); i-- > 0;) {
         HierarchyNode& node = nodes_[i];
-        if (node.escape == i + 1) {
-            refit_leaf(node, boxes, all);
-            continue;
-        }
+        const auto first_child = static_cast<std::uint32_t>(i) + 1;
+        const bool leaf = node.escape == first_child;
+        for (std::uint32_t child = first_child; child < node.escape; child = nodes_[child].escape)
+            marked_[i] |= marked_[child];
+        if (marked_[i] == 0) continue;
         node.bounds = {};
-        for (std::uint32_t child = static_cast<std::uint32_t>(i) + 1; child < node.escape;
-             child = nodes_[child].escape)
+        for (std::uint32_t child = first_child; child < node.escape; child = nodes_[child].escape)
             node.bounds.grow(nodes_[child].bounds);
+        if (!leaf) continue;
+        for (std::uint32_t place = node.first; place < node.first + node.count; ++place)
+            node.bounds.grow(bounds_for_hierarchy(known_[index_of(order_[place])]));
     }
+    std::ranges::fill(marked_, std::uint8_t{0});
 }
 
 HierarchyVisits BoxHierarchy::cull(const Frustum& frustum, std::vector<OrderRange>& visible) const {

@@ -98,6 +98,11 @@ void BoxPass::decide(std::span<const SlotDraw> draws, std::span<const std::uint6
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
 
+void BoxPass::remake(std::span<const SlotDraw> draws) {
+    make_commands(draws);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+}
+
 void BoxPass::make_commands(std::span<const SlotDraw> draws) {
     draws_capacity_ = std::max(draws_capacity_, draws.size());
     renew(commands_, draws_capacity_ * kCommandBytes);

@@ -40,6 +40,8 @@ class BoxPass {
     /// After the boxes were drawn: makes a command of each draw, with its instances if its slot is set, else
     /// none, and sends the words of `tickets`, slot by slot, on their way back.
     void decide(std::span<const SlotDraw> draws, std::span<const std::uint64_t> tickets);
+    /// Makes other commands by the same words. Takes the place of the program, and changes buffer bindings.
+    void remake(std::span<const SlotDraw> draws);
     /// Binds the commands for indirect drawing.
     void bind_commands() const;
     static const void* command_offset(std::size_t draw);

@@ -12,6 +12,7 @@
 #include "object_drawer.h"
 #include "occlusion_tests.h"
 #include "program.h"
+#include "rhview/base/assert.h"
 #include "rhview/base/rounding.h"
 #include "rhview/gl/work_counter.h"
 #include "state_guard.h"
@@ -275,9 +276,27 @@ void Executor::draw_conditional(const FramePlan& plan, const SceneBuffers& scene
                                command, counters);
         first = end;
     }
+    if (options.late.prepare != nullptr && !plan.conditional_objects.empty()) {
+        prepare_late(plan, scene, view, options, counters);
+        command = 0;
+    }
     if (objects_->conditional().empty()) return;
     objects_->begin(options.colour);
     draw_conditional_objects(command, counters);
+}
+
+void Executor::prepare_late(const FramePlan& plan, const SceneBuffers& scene, const View& view,
+                            const DrawOptions& options, FrameCounters& counters) {
+    tests_->look(plan);
+    places_.clear();
+    for (std::uint32_t i = 0; i < plan.conditional_objects.size(); ++i)
+        if (!tests_->is_found_hidden(plan.conditional_objects[i].query)) places_.push_back(i);
+    counters.found_hidden += plan.conditional_objects.size() - places_.size();
+    if (places_.empty()) return;
+    options.late.prepare(options.late.context, places_);
+    objects_->place_late(plan, places_, scene, view, options.placements);
+    RHVIEW_ASSERT(objects_->largest_growth() <= asked_growth_);
+    tests_->command_late(*objects_);
 }
 
 FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, const View& view,
@@ -285,7 +304,8 @@ FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, c
     const StateGuard guard(clip_control_);
     FrameCounters counters;
     begin(view);
-    objects_->place(plan, scene, view, options.placements);
+    const bool late = options.late.prepare != nullptr;
+    objects_->place(plan, scene, view, options.placements, late);
     draw_at_once(plan, scene, view, options, counters);
     tests_->begin_frame();
     if (plan.queries.empty()) {
@@ -294,7 +314,9 @@ FrameCounters Executor::draw(const FramePlan& plan, const SceneBuffers& scene, c
     }
     const QueryStateGuard query_guard;
     if (options.counter != nullptr) options.counter->pause();
-    tests_->ask(plan, scene, view, *objects_, counters);
+    asked_growth_ = objects_->largest_growth();
+    if (late) asked_growth_ = std::max(asked_growth_, options.late.largest_growth);
+    tests_->ask(plan, scene, view, *objects_, asked_growth_, counters);
     if (options.counter != nullptr) options.counter->resume();
     query_guard.put_back_raster_state();
     begin(view);

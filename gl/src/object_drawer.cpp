@@ -106,33 +106,61 @@ void ObjectDrawer::append(std::vector<ObjectRun>& runs, const ObjectRun& one) {
     runs.push_back(one);
 }
 
-void ObjectDrawer::place(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                         std::span<const glm::dmat4> placements) {
-    if (placements.empty()) placements = scene.placements();
-    RHVIEW_ASSERT(placements.size() >= scene.object_meshes().size());
-    RHVIEW_ASSERT(plan.object_levels.empty() || plan.object_levels.size() == plan.objects.size());
-    data_.resize(plan.objects.size() + plan.conditional_objects.size());
-    std::uint32_t place = 0;
-    at_once_.clear();
-    conditional_.clear();
-    const bool asks = !plan.queries.empty();
-    if (asks) largest_growth_ = std::max(largest_growth_, scene.largest_growth());
-    const Eye eye(view, scene.origin());
-    const auto add = [&](std::vector<ObjectRun>& runs, ObjectId id, std::uint8_t level, std::uint32_t query) {
-        const std::uint32_t mesh = scene.object_meshes()[index_of(id)];
-        InstanceData& data = data_[place];
-        place_one(eye, placements[index_of(id)], asks, data);
-        append(runs, {&scene.meshes()[mesh], scene.level_range(mesh, level), place++, 1, query, level,
-                      data.handedness < 0.0f});
-    };
-    for (std::size_t i = 0; i < plan.objects.size(); ++i)
-        add(at_once_, plan.objects[i], plan.level_of_object(i), 0);
-    const std::span<const ConditionalObject> conditional = plan.conditional_objects;
-    for (std::size_t i = 0; i < conditional.size(); ++i) {
-        if (i + kPrefetchSteps < conditional.size())
-            prefetch(&placements[index_of(conditional[i + kPrefetchSteps].object)]);
-        add(conditional_, conditional[i].object, conditional[i].level, conditional[i].query);
+struct ObjectDrawer::Ground {
+    Ground(const SceneBuffers& buffers, const View& view, std::span<const glm::dmat4> given, bool is_asked)
+        : scene(buffers),
+          eye(view, buffers.origin()),
+          placements(given.empty() ? buffers.placements() : given),
+          asks(is_asked) {
+        RHVIEW_ASSERT(placements.size() >= scene.object_meshes().size());
     }
+
+    const SceneBuffers& scene;
+    Eye eye;
+    std::span<const glm::dmat4> placements;
+    bool asks;  ///< something is asked in this frame
+};
+
+void ObjectDrawer::add(const Ground& ground, std::vector<ObjectRun>& runs, const ConditionalObject& object) {
+    const std::size_t id = index_of(object.object);
+    const std::uint32_t mesh = ground.scene.object_meshes()[id];
+    const auto place = static_cast<std::uint32_t>(data_.size());
+    InstanceData& data = data_.emplace_back();
+    place_one(ground.eye, ground.placements[id], ground.asks, data);
+    append(runs, {&ground.scene.meshes()[mesh], ground.scene.level_range(mesh, object.level), place, 1,
+                  object.query, object.level, data.handedness < 0.0f});
+}
+
+void ObjectDrawer::add_conditional(const Ground& ground, std::span<const ConditionalObject> objects,
+                                   std::size_t count, const auto& place_of) {
+    conditional_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i + kPrefetchSteps < count)
+            prefetch(&ground.placements[index_of(objects[place_of(i + kPrefetchSteps)].object)]);
+        add(ground, conditional_, objects[place_of(i)]);
+    }
+}
+
+void ObjectDrawer::place(const FramePlan& plan, const SceneBuffers& scene, const View& view,
+                         std::span<const glm::dmat4> placements, bool late) {
+    RHVIEW_ASSERT(plan.object_levels.empty() || plan.object_levels.size() == plan.objects.size());
+    const Ground ground(scene, view, placements, !plan.queries.empty());
+    if (ground.asks) largest_growth_ = std::max(largest_growth_, scene.largest_growth());
+    data_.clear();
+    at_once_.clear();
+    for (std::size_t i = 0; i < plan.objects.size(); ++i)
+        add(ground, at_once_, {plan.objects[i], 0, plan.level_of_object(i)});
+    add_conditional(ground, plan.conditional_objects, late ? 0 : plan.conditional_objects.size(),
+                    [](std::size_t i) { return i; });
+    if (!data_.empty()) upload();
+}
+
+void ObjectDrawer::place_late(const FramePlan& plan, std::span<const std::uint32_t> places,
+                              const SceneBuffers& scene, const View& view,
+                              std::span<const glm::dmat4> placements) {
+    data_.clear();
+    add_conditional(Ground(scene, view, placements, true), plan.conditional_objects, places.size(),
+                    [&](std::size_t i) { return places[i]; });
     if (!data_.empty()) upload();
 }
 

@@ -56,10 +56,14 @@ class ObjectDrawer {
   public:
     static Result<ObjectDrawer> create(const char* fragment_shader);
 
-    /// Places the objects of `plan` for `view`, and finds its runs. `placements` by `ObjectId`; empty: those
-    /// of the scene. Cost: about 0.1 µs per object, and 144 bytes of upload.
+    /// Places the objects of `plan` for `view`, without the conditional ones if these are `late`, and finds
+    /// its runs. `placements` by `ObjectId`; empty: those of the scene. Cost: about 0.1 µs per object, and
+    /// 144 bytes of upload.
     void place(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-               std::span<const glm::dmat4> placements);
+               std::span<const glm::dmat4> placements, bool late = false);
+    /// In their stead those conditional objects whose places are named.
+    void place_late(const FramePlan& plan, std::span<const std::uint32_t> places, const SceneBuffers& scene,
+                    const View& view, std::span<const glm::dmat4> placements);
     [[nodiscard]] std::span<const ObjectRun> at_once() const { return at_once_; }
     [[nodiscard]] std::span<const ObjectRun> conditional() const { return conditional_; }
     /// The largest `rounding_growth` of any object that queries can be about: of the scenes that were asked
@@ -73,6 +77,11 @@ class ObjectDrawer {
 
   private:
     struct Eye;
+    /// What objects are placed from.
+    struct Ground;
+    void add(const Ground& ground, std::vector<ObjectRun>& runs, const ConditionalObject& object);
+    void add_conditional(const Ground& ground, std::span<const ConditionalObject> objects, std::size_t count,
+                         const auto& place_of);
     void place_one(const Eye& eye, const glm::dmat4& scene_from_mesh, bool asks, InstanceData& data);
     static void append(std::vector<ObjectRun>& runs, const ObjectRun& one);
     void upload() const;

@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "raster_precision.h"
 #include "rhview/base/assert.h"
@@ -36,15 +37,19 @@ void OcclusionTests::begin_frame() {
 }
 
 void OcclusionTests::ask(const FramePlan& plan, const SceneBuffers& scene, const View& view,
-                         const ObjectDrawer& objects, FrameCounters& counters) {
+                         const ObjectDrawer& objects, double growth, FrameCounters& counters) {
     counters.queries += plan.queries.size();
-    const BoxWidener widener(view, scene.origin(), bound_raster_precision(subpixel_bits_),
-                             objects.largest_growth());
+    const BoxWidener widener(view, scene.origin(), bound_raster_precision(subpixel_bits_), growth);
     place_boxes(plan, widener);
     if (!boxes_.empty()) drawer_.upload(boxes_);
     counters.query_boxes += boxes_.size();
     if (first_marking_ != 0) ask_hardware(plan, widener, counters);
-    collect_draws(plan, objects);
+    draws_.clear();
+    for (const ConditionalRange& conditional : plan.conditional)
+        if (is_indirect(conditional.query))
+            draws_.push_back({conditional.range.first_index, conditional.range.index_count,
+                              fates_[conditional.query].slot});
+    collect_draws(objects);
     if (!slots_.empty()) ask_box_pass(widener, counters);
 }
 
@@ -65,7 +70,7 @@ void OcclusionTests::place_query(const PlannedQuery& query, const FramePlan& pla
     const bool marks = query.way == QueryWay::BoxPass;
     RHVIEW_ASSERT(!marks || (has_box_pass() && !query.counts_samples));
     if (query.box_count == 0 || (marks && !has_box_pass())) {
-        untested_.push_back({query.ticket, true, 0});
+        early_.push_back({query.ticket, true, 0});
         return;
     }
     fate.first_box = static_cast<std::uint32_t>(boxes_.size());
@@ -89,12 +94,7 @@ void OcclusionTests::ask_hardware(const FramePlan& plan, const BoxWidener& widen
     }
 }
 
-void OcclusionTests::collect_draws(const FramePlan& plan, const ObjectDrawer& objects) {
-    draws_.clear();
-    for (const ConditionalRange& conditional : plan.conditional)
-        if (is_indirect(conditional.query))
-            draws_.push_back({conditional.range.first_index, conditional.range.index_count,
-                              fates_[conditional.query].slot});
+void OcclusionTests::collect_draws(const ObjectDrawer& objects) {
     for (const ObjectRun& run : objects.conditional())
         if (is_indirect(run.query))
             draws_.push_back({run.range.first_index, run.range.index_count, fates_[run.query].slot,
@@ -109,20 +109,44 @@ void OcclusionTests::ask_box_pass(const BoxWidener& widener, FrameCounters& coun
     box_pass_->decide(draws_, slots_);
 }
 
+void OcclusionTests::command_late(const ObjectDrawer& objects) {
+    draws_.clear();
+    collect_draws(objects);
+    if (draws_.empty()) return;
+    box_pass_->remake(draws_);
+    box_pass_->bind_commands();
+}
+
+void OcclusionTests::look(const FramePlan& plan) {
+    const std::size_t before = early_.size();
+    pool_.poll(early_);
+    if (box_pass_) box_pass_->poll(early_);
+    if (early_.size() == before) return;
+    by_ticket_.resize(plan.queries.size());
+    std::iota(by_ticket_.begin(), by_ticket_.end(), 0u);
+    const auto ticket_of = [&](std::uint32_t query) { return plan.queries[query].ticket; };
+    if (!std::ranges::is_sorted(by_ticket_, {}, ticket_of)) std::ranges::sort(by_ticket_, {}, ticket_of);
+    for (std::size_t i = before; i < early_.size(); ++i) {
+        const auto found = std::ranges::lower_bound(by_ticket_, early_[i].ticket, {}, ticket_of);
+        if (found != by_ticket_.end() && ticket_of(*found) == early_[i].ticket)
+            fates_[*found].hidden = !early_[i].visible;
+    }
+}
+
 void OcclusionTests::bind_commands() const {
     if (box_pass_) box_pass_->bind_commands();
 }
 
 void OcclusionTests::poll(std::vector<QueryAnswer>& answers) {
-    answers.insert(answers.end(), untested_.begin(), untested_.end());
-    untested_.clear();
+    answers.insert(answers.end(), early_.begin(), early_.end());
+    early_.clear();
     pool_.poll(answers);
     if (box_pass_) box_pass_->poll(answers);
 }
 
 void OcclusionTests::wait(std::vector<QueryAnswer>& answers) {
-    answers.insert(answers.end(), untested_.begin(), untested_.end());
-    untested_.clear();
+    answers.insert(answers.end(), early_.begin(), early_.end());
+    early_.clear();
     pool_.wait(answers);
     if (box_pass_) box_pass_->wait(answers);
 }

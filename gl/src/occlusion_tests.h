@@ -28,8 +28,17 @@ class OcclusionTests {
     void begin_frame();
     /// Asks all queries of `plan` against the depth in the bound framebuffer, whose depth test is set up.
     /// Changes what `BoxDrawer::begin` sets, and buffer bindings.
+    /// `growth`: no conditional object has a greater `rounding_growth`.
     void ask(const FramePlan& plan, const SceneBuffers& scene, const View& view, const ObjectDrawer& objects,
-             FrameCounters& counters);
+             double growth, FrameCounters& counters);
+
+    /// Takes the answers to the queries of `plan` that are there already, and does not wait for the others;
+    /// `poll` gives them to who asked.
+    void look(const FramePlan& plan);
+    /// Whether `look` found that nothing of it is seen.
+    [[nodiscard]] bool is_found_hidden(std::uint32_t query) const { return fates_[query].hidden; }
+    /// Makes the commands of the conditional runs anew; there are no others then.
+    void command_late(const ObjectDrawer& objects);
 
     /// The OpenGL name of the query of this plan if conditional rendering decides; else 0.
     [[nodiscard]] std::uint32_t condition(std::uint32_t query) const { return fates_[query].name; }
@@ -51,6 +60,7 @@ class OcclusionTests {
         std::uint32_t name = 0;
         std::uint32_t slot = kNoSlot;
         std::uint32_t first_box = 0;  ///< into `boxes_`
+        bool hidden = false;          ///< as is known already
     };
 
     OcclusionTests(BoxDrawer drawer, QueryPool pool);
@@ -58,7 +68,7 @@ class OcclusionTests {
     void place_query(const PlannedQuery& query, const FramePlan& plan, const BoxWidener& widener, Fate& fate);
     void ask_hardware(const FramePlan& plan, const BoxWidener& widener, FrameCounters& counters);
     void ask_box_pass(const BoxWidener& widener, FrameCounters& counters);
-    void collect_draws(const FramePlan& plan, const ObjectDrawer& objects);
+    void collect_draws(const ObjectDrawer& objects);
 
     BoxDrawer drawer_;
     QueryPool pool_;
@@ -70,7 +80,8 @@ class OcclusionTests {
     std::uint32_t first_marking_ = 0;   ///< where the latter begin
     std::vector<std::uint64_t> slots_;  ///< tickets
     std::vector<SlotDraw> draws_;
-    std::vector<QueryAnswer> untested_;  ///< answered without the device
+    std::vector<QueryAnswer> early_;  ///< answers for the next `poll`: without the device, or seen by `look`
+    std::vector<std::uint32_t> by_ticket_;  ///< scratch: queries of the plan
 };
 
 }  // namespace rhview::gl

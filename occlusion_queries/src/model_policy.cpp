@@ -60,33 +60,47 @@ void ModelPolicy::appraise(std::span<const OcclusionCandidate> candidates, const
     }
 }
 
+/// Where the screen is covered `cold_coverage` times, all of the unknown that is hidden is behind something.
+/// Until then each pixel of an occluder hides its share of it, about: p·Σ render_ns / (cold_coverage·screen).
+/// The nearest come first; those that cost more than they hide are asked first like the rest.
 bool ModelPolicy::put_occluders_in_front(std::span<const OcclusionCandidate> candidates,
                                          const OptionPricer& pricer, const ItemHistories& histories) {
-    occluders_.clear();
-    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-        const std::uint32_t item = candidates[i].item;
-        if (histories[item].belief != Belief::Unknown || candidates[i].trial) continue;
-        const float distance = candidates[i].distance;
-        occluders_.push_back({distance == distance ? distance : 3e38f, item, i});
-    }
+    const double enough = settings_.cold_coverage * screen_pixels_;
+    const double hidden_ns_per_pixel = collect_occluders(candidates, histories) / enough;
     const auto farther = [](const Occluder& a, const Occluder& b) {
         return std::tie(a.distance, a.item) > std::tie(b.distance, b.item);
     };
     std::make_heap(occluders_.begin(), occluders_.end(), farther);
     bool found = false;
-    const double enough = settings_.cold_coverage * screen_pixels_;
     while (!occluders_.empty() && covered_pixels_ < enough) {
         const std::uint32_t nearest = occluders_.front().candidate;
+        CandidateOption& option = options_[nearest];
         const float pixels = candidates[nearest].pixels;
-        if (options_[nearest].ask == Ask::First) {
-            pricer.price_occluder(candidates[nearest], options_[nearest]);
-            found = true;
+        const bool at_once = option.ask != Ask::First;
+        if (at_once || option.render_ns <= hidden_ns_per_pixel * pixels) {
+            if (pixels > 0.0f) covered_pixels_ += pixels;
+            if (!at_once) pricer.price_occluder(candidates[nearest], option);
+            found = found || !at_once;
         }
-        if (pixels > 0.0f) covered_pixels_ += pixels;
         std::pop_heap(occluders_.begin(), occluders_.end(), farther);
         occluders_.pop_back();
     }
     return found;
+}
+
+/// What is not known yet; the time that what is hidden of it takes, as far as one can tell.
+double ModelPolicy::collect_occluders(std::span<const OcclusionCandidate> candidates,
+                                      const ItemHistories& histories) {
+    occluders_.clear();
+    double unknown_ns = 0.0;
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+        const std::uint32_t item = candidates[i].item;
+        if (histories[item].belief != Belief::Unknown || candidates[i].trial) continue;
+        const float distance = candidates[i].distance;
+        occluders_.push_back({distance == distance ? distance : 3e38f, item, i});
+        unknown_ns += options_[i].render_ns;
+    }
+    return histories.p_unknown() * unknown_ns;
 }
 
 /// A way costs its `frame_ns` once it is used: the frame's totals with neither, one and both are compared.

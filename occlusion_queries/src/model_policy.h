@@ -45,6 +45,7 @@ class ModelPolicy {
     /// True if there are some whose answers are not known yet.
     bool put_occluders_in_front(std::span<const OcclusionCandidate> candidates, const OptionPricer& pricer,
                                 const ItemHistories& histories);
+    double collect_occluders(std::span<const OcclusionCandidate> candidates, const ItemHistories& histories);
     [[nodiscard]] Ways choose_ways(const QueryCosts& costs) const;
     static Choice choose(const CandidateOption& option, Ways ways);
     void ask_each(const OptionPricer& pricer, Ways ways, QueryWriter& writer, OcclusionDecisions& out);

@@ -17,6 +17,10 @@ void hash_word(std::uint64_t& hash, std::uint32_t word) {
     }
 }
 
+std::uint32_t group_of(std::span<const std::uint32_t> groups, ObjectId object) {
+    return index_of(object) < groups.size() ? groups[index_of(object)] : 0u;
+}
+
 }  // namespace
 
 void FramePlan::clear() {
@@ -85,22 +89,31 @@ void ObjectSorter::sort_by_group(std::vector<Object>& objects, std::vector<Objec
     if (groups > 0) sort_by(groups + 1, group_of);
 }
 
-void ObjectSorter::sort(std::span<const std::uint32_t> groups, FramePlan& plan) {
-    const auto group = [&](ObjectId object) {
-        return index_of(object) < groups.size() ? groups[index_of(object)] : 0u;
-    };
+void ObjectSorter::sort_at_once(std::span<const std::uint32_t> groups, FramePlan& plan) {
     at_once_.clear();
     for (std::size_t i = 0; i < plan.objects.size(); ++i)
         at_once_.push_back({plan.objects[i], plan.level_of_object(i)});
     sort_by_group(
-        at_once_, at_once_scratch_, [&](const AtOnce& object) { return group(object.object); },
+        at_once_, at_once_scratch_, [&](const AtOnce& object) { return group_of(groups, object.object); },
         [](const AtOnce& object) { return object.level; });
     for (std::size_t i = 0; i < at_once_.size(); ++i) plan.objects[i] = at_once_[i].object;
     for (std::size_t i = 0; i < plan.object_levels.size(); ++i) plan.object_levels[i] = at_once_[i].level;
+}
+
+void ObjectSorter::sort(std::span<const std::uint32_t> groups, FramePlan& plan) {
+    sort_at_once(groups, plan);
     sort_by_group(
         plan.conditional_objects, conditional_scratch_,
-        [&](const ConditionalObject& object) { return group(object.object); },
+        [&](const ConditionalObject& object) { return group_of(groups, object.object); },
         [](const ConditionalObject& object) { return object.level; });
+}
+
+void ObjectSorter::sort_places(std::span<const std::uint32_t> groups,
+                               std::span<const ConditionalObject> objects,
+                               std::vector<std::uint32_t>& places) {
+    sort_by_group(
+        places, places_scratch_, [&](std::uint32_t place) { return group_of(groups, objects[place].object); },
+        [&](std::uint32_t place) { return objects[place].level; });
 }
 
 void BatchSorter::sort(std::vector<DrawRange>& ranges, std::size_t batch_count) {

@@ -12,6 +12,14 @@
 #include "rhview/lod/projected_error.h"
 
 namespace rhview {
+namespace {
+
+float error_px_of(std::span<const LodChain> chains, const LodObject& object, std::uint32_t level) {
+    return static_cast<float>(
+        projected_error_px(chains[object.chain].levels[level].error, object.pixels_per_unit));
+}
+
+}  // namespace
 
 ObjectLevels::ObjectLevels(std::span<const LodChain> chains, std::span<const LevelledObject> objects)
     : chains_(chains), objects_(objects.begin(), objects.end()), selector_(chains) {
@@ -37,9 +45,12 @@ const LevelledObject* ObjectLevels::find(ObjectId object) const {
 }
 
 std::uint32_t ObjectLevels::indices(ObjectId object, std::uint32_t whole) const {
+    return index_of(object) < levels_.size() ? indices_at(object, levels_[index_of(object)], whole) : whole;
+}
+
+std::uint32_t ObjectLevels::indices_at(ObjectId object, std::uint8_t level, std::uint32_t whole) const {
     const LevelledObject* levelled = find(object);
-    if (levelled == nullptr || index_of(object) >= levels_.size()) return whole;
-    return chains_[levelled->chain].levels[levels_[index_of(object)]].index_count;
+    return levelled == nullptr ? whole : chains_[levelled->chain].levels[level].index_count;
 }
 
 ObjectLevels::Lens ObjectLevels::lens_of(const FrameInput& input) {
@@ -89,11 +100,14 @@ void ObjectLevels::select(const LevelOptions& options) {
     for (std::size_t i = 0; i < asked_.size(); ++i) {
         const std::uint32_t level = selection_.levels[i], object = asked_[i].slot;
         if (level == 0) continue;
-        levels_[object] = static_cast<std::uint8_t>(level);
-        errors_px_[object] = static_cast<float>(
-            projected_error_px(chains_[asked_[i].chain].levels[level].error, asked_[i].pixels_per_unit));
-        given_levels_.push_back(object);
+        set_level(object, static_cast<std::uint8_t>(level), error_px_of(chains_, asked_[i], level));
     }
+}
+
+void ObjectLevels::set_level(std::uint32_t object, std::uint8_t level, float error_px) {
+    levels_[object] = level;
+    errors_px_[object] = error_px;
+    given_levels_.push_back(object);
 }
 
 LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& options) {
@@ -109,7 +123,8 @@ LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& o
             selection_.budget_met};
 }
 
-LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& options, FramePlan& plan) {
+LevelSummary ObjectLevels::select_at_once(const FrameInput& input, const LevelOptions& options,
+                                          const FramePlan& plan) {
     begin(input);
     const Lens lens = lens_of(input);
     asked_.clear();
@@ -117,14 +132,31 @@ LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& o
     select(options);
     const LevelSummary summary{selection_.max_error_px, selection_.cost_ns, selection_.indices,
                                selection_.bound_met, selection_.budget_met};
-    LevelOptions hidden = options;
-    hidden.budget_ns = std::numeric_limits<double>::infinity();
+    late_lens_ = lens;
+    late_options_ = options;
+    late_options_.budget_ns = std::numeric_limits<double>::infinity();
     if (std::isfinite(options.budget_ns) && std::isfinite(summary.max_error_px))
-        hidden.max_error_px = std::max(options.max_error_px, summary.max_error_px);
-    asked_.clear();
-    for (const ConditionalObject& object : plan.conditional_objects) add(input, lens, hidden, object.object);
-    select(hidden);
+        late_options_.max_error_px = std::max(options.max_error_px, summary.max_error_px);
     if (options.policy == LodPolicy::Fragments) fragments_.expect(plan);
+    return summary;
+}
+
+LevelSummary ObjectLevels::choose_at_once(const FrameInput& input, const LevelOptions& options,
+                                          FramePlan& plan) {
+    const LevelSummary summary = select_at_once(input, options, plan);
+    plan.object_levels.clear();
+    if (given_levels_.empty()) return summary;
+    for (const ObjectId object : plan.objects) plan.object_levels.push_back(levels_[index_of(object)]);
+    sorter_.sort_at_once(input.object_groups, plan);
+    return summary;
+}
+
+LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& options, FramePlan& plan) {
+    const LevelSummary summary = select_at_once(input, options, plan);
+    asked_.clear();
+    for (const ConditionalObject& object : plan.conditional_objects)
+        add(input, late_lens_, late_options_, object.object);
+    select(late_options_);
     plan.object_levels.clear();
     if (given_levels_.empty()) return summary;
     for (const ObjectId object : plan.objects) plan.object_levels.push_back(levels_[index_of(object)]);
@@ -132,6 +164,22 @@ LevelSummary ObjectLevels::choose(const FrameInput& input, const LevelOptions& o
         object.level = levels_[index_of(object.object)];
     sorter_.sort(input.object_groups, plan);
     return summary;
+}
+
+void ObjectLevels::choose_late(const FrameInput& input, FramePlan& plan, std::span<std::uint32_t> places) {
+    for (const std::uint32_t place : places) {
+        ConditionalObject& object = plan.conditional_objects[place];
+        asked_.clear();
+        add(input, late_lens_, late_options_, object.object);
+        if (asked_.empty() || !(late_options_.max_error_px > 0.0)) continue;
+        object.level =
+            level_within(*find(object.object), asked_[0].pixels_per_unit, late_options_.max_error_px);
+        if (object.level > 0)
+            set_level(asked_[0].slot, object.level, error_px_of(chains_, asked_[0], object.level));
+    }
+    places_.assign(places.begin(), places.end());
+    sorter_.sort_places(input.object_groups, plan.conditional_objects, places_);
+    std::ranges::copy(places_, places.begin());
 }
 
 std::uint8_t ObjectLevels::level_within(const LevelledObject& object, double pixels_per_unit,
@@ -142,6 +190,15 @@ std::uint8_t ObjectLevels::level_within(const LevelledObject& object, double pix
            projected_error_px(levels[level + std::size_t{1}].error, pixels_per_unit) <= max_error_px)
         ++level;
     return level;
+}
+
+std::uint8_t ObjectLevels::level_by_bound(const FrameInput& input, ObjectId object) const {
+    const LevelledObject* levelled = find(object);
+    if (levelled == nullptr || !(late_options_.max_error_px > 0.0)) return 0;
+    double size_px = 0.0;
+    const double pixels =
+        levelled->scale * pixels_per_scene_unit(late_lens_, input.object_boxes[index_of(object)], size_px);
+    return level_within(*levelled, pixels, late_options_.max_error_px);
 }
 
 void ObjectLevels::complete(const FrameInput& input, const LevelOptions& options, const FramePlan& plan,

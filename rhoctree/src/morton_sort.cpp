@@ -56,11 +56,32 @@ std::size_t first_bad_index(const TriangleBatch& batch) {
         [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }
 
+bool is_box(const Aabb& box) {
+    return is_finite(box.min) && is_finite(box.max) && box.min.x <= box.max.x && box.min.y <= box.max.y &&
+           box.min.z <= box.max.z;
+}
+
+Status check_objects(const TriangleBatch& batch, const std::string& name) {
+    std::uint64_t next = 0;
+    for (std::size_t i = 0; i < batch.objects.size(); ++i) {
+        const BatchObject& object = batch.objects[i];
+        const std::string where = name + ", object " + std::to_string(i) + ": ";
+        if (object.first_index % 3 != 0 || object.index_count % 3 != 0)
+            return Error{where + "its indices are no whole triangles"};
+        if (object.first_index < next) return Error{where + "it begins before the one before it ends"};
+        next = std::uint64_t{object.first_index} + object.index_count;
+        if (next > batch.indices.size()) return Error{where + "it ends beyond the batch's indices"};
+        if (object.index_count > 0 && !is_box(object.bounds)) return Error{where + "its box is none"};
+    }
+    return success();
+}
+
 Status check_batch(const TriangleBatch& batch, std::size_t number) {
     const std::string name = "batch " + std::to_string(number);
     if (batch.indices.size() % 3 != 0)
         return Error{name + " has " + std::to_string(batch.indices.size()) +
                      " indices, which is no multiple of three"};
+    if (Status status = check_objects(batch, name); !status) return status;
     const std::size_t bad = first_bad_index(batch);
     if (bad == batch.indices.size()) return success();
     const std::string where = name + ", triangle " + std::to_string(bad / 3) + ": ";
@@ -95,17 +116,79 @@ Extent extent_of(std::span<const TriangleBatch> batches, const TriangleIds& ids)
         });
 }
 
-std::vector<MortonTriangle> codes_of(std::span<const TriangleBatch> batches, const TriangleIds& ids,
-                                     BuildProgress& progress) {
-    const Extent extent = extent_of(batches, ids);
-    const glm::dvec3 size = extent.high - extent.low;
-    const double edge = std::max({size.x, size.y, size.z});
-    const double cells_per_unit = edge > 0.0 ? kCells / edge : 0.0;
-    const auto code_of = [&](const glm::dvec3& sum) {
-        const glm::dvec3 cell = glm::min((sum - extent.low) * cells_per_unit, kCells - 1.0);
+/// The cube that Morton codes divide. Works on sums of three corners: no division by three is rounded.
+class MortonGrid {
+  public:
+    explicit MortonGrid(const Extent& extent) : low_(extent.low) {
+        const glm::dvec3 size = extent.high - extent.low;
+        edge_ = std::max({size.x, size.y, size.z});
+        cells_per_unit_ = edge_ > 0.0 ? kCells / edge_ : 0.0;
+    }
+
+    /// Of three times a place; of places outside that of the nearest inside.
+    [[nodiscard]] std::uint64_t code_of(const glm::dvec3& sum) const {
+        const glm::dvec3 cell = glm::clamp((sum - low_) * cells_per_unit_, 0.0, kCells - 1.0);
         const auto bits = [](double c) { return spread_bits(static_cast<std::uint64_t>(c)); };
         return bits(cell.x) | bits(cell.y) << 1 | bits(cell.z) << 2;
-    };
+    }
+    /// Of a cell `level` levels below the root.
+    [[nodiscard]] double edge_of(int level) const { return std::ldexp(edge_ / 3.0, -level); }
+
+  private:
+    glm::dvec3 low_;
+    double edge_ = 0.0, cells_per_unit_ = 0.0;
+};
+
+// Every so many triangles are looked at to tell how large leaves will be: a leaf holds far more.
+constexpr std::size_t kSampled = 16;
+
+/// Gives all triangles of an object one code where the object fits into a leaf, so that they stay together.
+/// A leaf's box is then that of whole objects: one that a cell's border cuts in two would make both sides'
+/// boxes larger, and show them more often. An object that is longer than the leaf's cell would do that
+/// itself.
+class ObjectsTogether {
+  public:
+    ObjectsTogether(const MortonGrid& grid, std::size_t cell_triangles)
+        : grid_(grid), cell_triangles_(cell_triangles) {}
+
+    /// `triangles`: the batch's own, with the codes of their centroids.
+    void keep(const TriangleBatch& batch, std::span<MortonTriangle> triangles) {
+        if (batch.objects.empty()) return;
+        codes_.clear();
+        for (std::size_t t = 0; t < triangles.size(); t += kSampled) codes_.push_back(triangles[t].code);
+        std::ranges::sort(codes_);
+        for (const BatchObject& object : batch.objects) {
+            if (object.index_count == 0 || object.index_count > 3 * cell_triangles_) continue;
+            const glm::dvec3 low(object.bounds.min), high(object.bounds.max), size = high - low;
+            const std::uint64_t code = grid_.code_of(1.5 * (low + high));
+            if (!(std::max({size.x, size.y, size.z}) <= grid_.edge_of(leaf_level(code)))) continue;
+            for (MortonTriangle& triangle : triangles.subspan(object.first_index / 3, object.index_count / 3))
+                triangle.code = code;
+        }
+    }
+
+  private:
+    /// Of the cell at `code` that has few enough of the batch's triangles, by the sample.
+    [[nodiscard]] int leaf_level(std::uint64_t code) const {
+        for (int level = 0; level < kMortonLevels; ++level) {
+            const int shift = 3 * (kMortonLevels - level);
+            const std::uint64_t first = code >> shift << shift;
+            const std::uint64_t last = first + ((std::uint64_t{1} << shift) - 1);
+            const auto count = static_cast<std::size_t>(std::ranges::upper_bound(codes_, last) -
+                                                        std::ranges::lower_bound(codes_, first));
+            if (count * kSampled <= cell_triangles_) return level;
+        }
+        return kMortonLevels;
+    }
+
+    const MortonGrid& grid_;
+    std::size_t cell_triangles_;
+    std::vector<std::uint64_t> codes_;  ///< of every `kSampled`th triangle of the batch, sorted
+};
+
+std::vector<MortonTriangle> codes_of(std::span<const TriangleBatch> batches, const TriangleIds& ids,
+                                     std::size_t cell_triangles, BuildProgress& progress) {
+    const MortonGrid grid(extent_of(batches, ids));
     std::vector<MortonTriangle> triangles(ids.count());
     tbb::parallel_for(IdRange(0, ids.count(), kGrain), [&](const IdRange& range) {
         if (progress.stopped()) return;
@@ -113,11 +196,16 @@ std::vector<MortonTriangle> codes_of(std::span<const TriangleBatch> batches, con
                           [&](std::uint32_t b, std::uint32_t first, std::uint32_t end) {
                               for (std::uint32_t t = first; t < end; ++t) {
                                   const std::uint32_t id = ids.first_of(b) + t;
-                                  triangles[id] = {code_of(corner_sum(batches[b], t)), id, b};
+                                  triangles[id] = {grid.code_of(corner_sum(batches[b], t)), id, b};
                               }
                           });
         progress.advance(range.size());
     });
+    if (progress.stopped()) return triangles;
+    ObjectsTogether objects(grid, cell_triangles);
+    for (std::uint32_t b = 0; b < batches.size(); ++b)
+        objects.keep(batches[b],
+                     std::span(triangles).subspan(ids.first_of(b), batches[b].indices.size() / 3));
     return triangles;
 }
 
@@ -218,7 +306,7 @@ std::vector<MortonTriangle> sort_by_morton_code(std::span<const TriangleBatch> b
                                                 const TriangleIds& ids, std::size_t cell_triangles,
                                                 BuildProgress& progress) {
     progress.begin_phase(0.15, ids.count());
-    std::vector<MortonTriangle> triangles = codes_of(batches, ids, progress);
+    std::vector<MortonTriangle> triangles = codes_of(batches, ids, cell_triangles, progress);
     progress.begin_phase(0.15, ids.count());
     CellSort(triangles, cell_triangles, progress).run();
     return triangles;

@@ -282,7 +282,11 @@ int main(void) {
     size_t index_count = 0, moved = 0, first_indices = 0;
     renderer pictures = {0}, shadows = {0};
     rhview_object_state cart, near_lamp, far_lamp;
-    int frame;
+    rhview_box_lens lens = {0};
+    const rhview_wide_box* wide_boxes = NULL;
+    size_t wide_count = 0;
+    int frame, all_widened = 1;
+    lens.size = sizeof lens;
     views[0] = camera = make_view(scene, &costs, RHVIEW_OCCLUSION_EXACT);
     views[1] = make_view(scene, &costs, RHVIEW_OCCLUSION_OFF);
     levels.size = sizeof levels;
@@ -306,6 +310,9 @@ int main(void) {
         check(rhview_plan_views(views, 2, NULL), "plan");
         check(rhview_view_plan(views[0], &plan), "the camera's plan");
         check(rhview_view_plan(views[1], &shadow_plan), "the sun's plan");
+        check(rhview_view_widen_boxes(camera, NULL, &lens, &wide_boxes, &wide_count),
+              "wide boxes"); /* upload them: a query draws these, by the lens */
+        all_widened = all_widened && wide_count == plan.box_count;
         memset(&pictures, 0, sizeof pictures);
         memset(&shadows, 0, sizeof shadows);
         execute(&plan, &levels, &pictures);
@@ -340,7 +347,7 @@ int main(void) {
     return pictures.indices + pictures.executed_indices < index_count / 4 && shadows.indices >= 36 * 1000 &&
                    cart.is_visible && cart.last_seen_frame == FRAMES - 1 && moved < FRAMES + FRAMES / 2 &&
                    near_lamp.level < far_lamp.level && far_lamp.level < levels.level_count &&
-                   shadows.lamp_indices == 2 * lamp.index_count
+                   shadows.lamp_indices == 2 * lamp.index_count && all_widened
                ? 0
                : 1;
 }

@@ -142,6 +142,8 @@ std::string library_words(const std::string& error) {
 
 }  // namespace
 
+// The bytes are taken, so that they are gone before the model becomes a scene.
+// cppcheck-suppress passedByValue
 Status load_model(const std::filesystem::path& file, const std::string& name, std::string bytes,
                   tinygltf::Model& model) {
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max())

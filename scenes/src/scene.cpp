@@ -131,7 +131,7 @@ std::vector<TriangleBatch> Scene::triangle_batches() const {
     views.reserve(batches.size());
     for (const SceneBatch& batch : batches)
         views.push_back({batch.material, pools[batch.pool].positions, batch.indices,
-                         materials[index_of(batch.material)].two_sided});
+                         materials[index_of(batch.material)].two_sided, batch.objects.span()});
     return views;
 }
 

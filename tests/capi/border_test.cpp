@@ -59,6 +59,17 @@ TEST(Structures, whose_size_was_not_set_are_refused) {
     EXPECT_EQ(scene, nullptr);
 }
 
+TEST(Structures, that_end_within_a_field_are_refused) {
+    auto options = sized<rhview_scene_options>();
+    options.size = offsetof(rhview_scene_options, chains) + 4;  // half a pointer
+    rhview_scene* scene = nullptr;
+    EXPECT_EQ(rhview_scene_create(&options, &scene), RHVIEW_INVALID_ARGUMENT);
+    EXPECT_TRUE(says("rhview_scene_options: its size is"));
+    auto costs = costs_with_queries();
+    costs.size = sizeof costs - 1;
+    EXPECT_EQ(rhview_costs_load(RHVIEW_TEST_PROFILE, 0, &costs), RHVIEW_INVALID_ARGUMENT);
+}
+
 TEST(Structures, that_are_filled_are_filled_as_far_as_they_go) {
     Town town;
     rhview_view* view = town.add_view(RHVIEW_OCCLUSION_OFF);

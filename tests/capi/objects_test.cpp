@@ -101,6 +101,43 @@ TEST_F(Crowd, only_what_some_view_shows_and_what_promises_nothing_is_moved_again
     EXPECT_EQ(due(), (Numbers{0, 1, 2, 3}));
 }
 
+TEST_F(Crowd, hidden_objects_that_keep_to_a_range_need_not_be_moved_again) {
+    auto object = sized<rhview_object>();
+    object.box = box_at(-50, 0, 0);
+    object.top_speed = 10.0;
+    std::uint32_t rover = 0, captive = 0;
+    ASSERT_OK(rhview_scene_add_object(scene, &object, &rover));
+    object.has_range = 1;
+    object.range = {{-60, -10, -10}, {-40, 10, 10}};
+    ASSERT_OK(rhview_scene_add_object(scene, &object, &captive));
+    int rover_moves = 0, captive_moves = 0, last_captive_move = 0;
+    for (int i = 0; i < 2000; ++i) {
+        ASSERT_OK(rhview_scene_begin_frame(scene, time_s));
+        for (const std::uint32_t number : due()) {
+            ASSERT_OK(rhview_scene_move_object(scene, number, &object.box));
+            ++(number == rover ? rover_moves : captive_moves);
+            if (number == captive) last_captive_move = i;
+        }
+        ASSERT_OK(rhview_plan_views(&ahead, 1, nullptr));
+        ASSERT_OK(rhview_scene_end_frame(scene));
+        time_s += 0.01;
+    }
+    EXPECT_GT(rover_moves, 3);
+    EXPECT_LT(captive_moves, rover_moves);
+    EXPECT_LT(last_captive_move, 1000);
+}
+
+TEST_F(Crowd, an_object_that_was_removed_in_this_frame_is_not_due) {
+    const std::uint32_t first = add(box_at(10, 0, 0), 0.0);
+    const std::uint32_t second = add(box_at(12, 0, 0), 0.0);
+    EXPECT_OK(rhview_scene_begin_frame(scene, 1.0));
+    EXPECT_OK(rhview_scene_remove_object(scene, first));
+    const std::uint32_t* numbers = nullptr;
+    std::size_t count = 0;
+    EXPECT_OK(rhview_scene_due_objects(scene, &numbers, &count));
+    EXPECT_EQ(std::vector(numbers, numbers + count), std::vector{second});
+}
+
 TEST_F(Crowd, views_tell_what_they_show) {
     add(box_at(10, 0, 0), 0.0);
     add(box_at(30, 0, 0), 0.0);
@@ -188,6 +225,10 @@ TEST_F(Crowd, wrong_objects_are_told) {
     object.box = {{1, 0, 0}, {0, 1, 1}};
     EXPECT_EQ(rhview_scene_add_object(scene, &object, &number), RHVIEW_INVALID_ARGUMENT);
     object.box = box_at(0, 0, 0);
+    object.has_range = 1;
+    object.range = {{1, 0, 0}, {0, 1, 1}};
+    EXPECT_EQ(rhview_scene_add_object(scene, &object, &number), RHVIEW_INVALID_ARGUMENT);
+    object.has_range = 0;
     object.top_speed = -1.0;
     EXPECT_EQ(rhview_scene_add_object(scene, &object, &number), RHVIEW_INVALID_ARGUMENT);
     for (int i = 0; i < 300; ++i) add(box_at(0, 0, 0), 1.0);

@@ -178,6 +178,40 @@ TEST(BoxHierarchy, a_warm_culling_allocates_nothing) {
     EXPECT_EQ(allocations(), before);
 }
 
+TEST(BoxHierarchy, after_boxes_moved_its_nodes_are_as_tight_as_their_boxes) {
+    Uniform uniform(10);
+    std::vector<Aabb> boxes = random_boxes(uniform, 1000, glm::dvec3(0.0), 100.0, 0.1, 10.0);
+    BoxHierarchy tree(boxes);
+    const auto expect_tight = [&](const char* when) {
+        for (const HierarchyNode& node : tree.nodes()) {
+            Aabb bounds;
+            for (const ObjectId id : tree.order().subspan(node.first, node.count))
+                bounds.grow(boxes[index_of(id)]);
+            ASSERT_EQ(node.bounds.min, bounds.min) << when;
+            ASSERT_EQ(node.bounds.max, bounds.max) << when;
+        }
+    };
+    expect_tight("made");
+    const std::vector<Aabb> before = boxes;
+    for (const std::size_t stride : {1000u, 300u, 31u, 1u}) {
+        for (std::size_t i = stride == 1000u ? 999 : 0; i < boxes.size(); i += stride) {
+            const glm::vec3 way(uniform.point(40.0));
+            boxes[i] = {boxes[i].min + way, boxes[i].max + way};
+        }
+        tree.refit(boxes);
+        expect_tight("moved");
+        tree.refit(boxes);
+        expect_tight("stood still");
+    }
+    for (const std::size_t i : {5u, 700u}) boxes[i].min.y = std::numeric_limits<float>::quiet_NaN();
+    tree.refit(boxes);
+    tree.refit(boxes);
+    EXPECT_EQ(tree.nodes()[0].bounds.max.x, std::numeric_limits<float>::infinity());
+    boxes = before;
+    tree.refit(boxes);
+    expect_tight("back");
+}
+
 TEST(BoxHierarchy, of_boxes_in_a_geometric_row_is_not_deeper_than_its_bound) {
     // Each mean leaves one box on the far side: a tree by means alone would be as deep as there are boxes.
     std::vector<Aabb> boxes;

@@ -55,8 +55,8 @@ class Decisions : public OcclusionTest, public testing::WithParamInterface<Ways>
     }
 
     /// By number: whether the range or object is in the picture that was drawn last.
-    std::vector<bool> drawn(const FramePlan& plan, const View& view) {
-        const std::vector<float> depths = depths_of(plan, *buffers_, view);
+    std::vector<bool> drawn(const FramePlan& plan, const View& view, const DrawOptions& options = {}) {
+        const std::vector<float> depths = depths_of(plan, *buffers_, view, options);
         std::vector<bool> result;
         for (const auto& [x, y] :
              {std::pair{80 - 44, 60}, {80 - 44, 60 + 44}, {80 + 44, 60}, {80 + 44, 60 - 44}}) {
@@ -92,6 +92,76 @@ TEST_P(Decisions, a_draw_is_drawn_if_and_only_if_its_query_sees_something) {
         EXPECT_EQ(counters_.query_boxes, 4u);
         const auto known = answers();
         for (unsigned i = 0; i < 4; ++i) EXPECT_EQ(known.at(70 + i).visible, expected[i]);
+    }
+}
+
+/// Objects that nobody places before they are asked for.
+struct LatePlaces {
+    explicit LatePlaces(const Scene& scene)
+        : objects(scene.dynamic_objects), placements(objects.size(), elsewhere()) {}
+
+    static glm::dmat4 elsewhere() { return glm::translate(glm::dmat4(1.0), {0, 0, 1e4}); }
+    static void prepare(void* context, std::span<std::uint32_t> places) {
+        auto& late = *static_cast<LatePlaces*>(context);
+        ++late.calls;
+        for (const std::uint32_t place : places) {
+            late.named.push_back(place);
+            late.placements[place] = late.objects[place].scene_from_mesh;
+        }
+        std::ranges::reverse(places);
+    }
+
+    std::span<const DynamicObject> objects;
+    std::vector<glm::dmat4> placements;
+    std::vector<std::uint32_t> named;
+    int calls = 0;
+};
+
+TEST_P(Decisions, late_objects_are_placed_unless_found_hidden_and_drawn_if_and_only_if_seen) {
+    const View view = view_at({0, 0, 0}, {0, 0, -1});
+    std::uint64_t found = 0;
+    for (unsigned mask = 0; mask < 16; ++mask) {
+        std::vector<Aabb> boxes;
+        std::vector<bool> expected;
+        for (unsigned i = 0; i < 4; ++i) {
+            expected.push_back((mask >> i & 1) != 0);
+            boxes.push_back(expected.back() ? kSeen : kHidden);
+        }
+        LatePlaces late(*scene_);
+        DrawOptions options;
+        options.placements = late.placements;
+        options.late = {LatePlaces::prepare, &late};
+        EXPECT_EQ(drawn(plan_of(boxes), view, options), expected) << mask;
+        EXPECT_EQ(late.named.size() + counters_.found_hidden, 2u);
+        EXPECT_EQ(late.calls, late.named.empty() ? 0 : 1);
+        EXPECT_EQ(counters_.conditional_instances, late.named.size());
+        EXPECT_EQ(counters_.conditional_sub_draws, 2 + late.named.size());
+        for (const std::uint32_t place : {0u, 1u}) {
+            EXPECT_LE(std::ranges::count(late.named, place), 1);
+            if (expected[2 + place]) {
+                EXPECT_EQ(std::ranges::count(late.named, place), 1);
+            }
+        }
+        found += counters_.found_hidden;
+        const auto known = answers();
+        ASSERT_EQ(known.size(), 4u);
+        for (unsigned i = 0; i < 4; ++i) EXPECT_EQ(known.at(70 + i).visible, expected[i]);
+    }
+    // A software renderer has answered once it has drawn what hangs on the first of the queries.
+    EXPECT_EQ(found, 16u);
+}
+
+TEST_P(Decisions, of_late_objects_that_hang_alone_none_is_missing) {
+    const View view = view_at({0, 0, 0}, {0, 0, -1});
+    for (const bool seen : {false, true}) {
+        LatePlaces late(*scene_);
+        FramePlan plan = plan_of({kHidden, kHidden, seen ? kSeen : kHidden, kSeen});
+        plan.conditional.clear();
+        DrawOptions options;
+        options.placements = late.placements;
+        options.late = {LatePlaces::prepare, &late};
+        EXPECT_EQ(drawn(plan, view, options), (std::vector<bool>{false, false, seen, true}));
+        EXPECT_EQ(answers().size(), 4u);
     }
 }
 

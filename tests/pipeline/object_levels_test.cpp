@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 
 #include "allocations.h"
 #include "lod_fixture.h"
@@ -255,6 +257,46 @@ TEST(ObjectLevels, a_new_object_under_an_old_number_is_not_held_back_by_what_was
     EXPECT_EQ(level_at(fresh, z, true), before + 1);
 }
 
+TEST(ObjectLevels, late_levels_are_those_of_the_bound_and_stand_in_order_whoever_was_named_before) {
+    const World world;
+    ObjectLevels levels(world.chains, world.objects);
+    LevelOptions options;
+    std::size_t named = 0;
+    for (unsigned frame = 0; frame < 12; ++frame) {
+        const FrameInput input = world.input(static_cast<double>(frame));
+        FramePlan plan = world.plan(input), whole = plan;
+        const LevelSummary summary = levels.choose_at_once(input, options, plan);
+        ObjectLevels fresh(world.chains, world.objects);
+        fresh.choose(input, options, whole);
+        EXPECT_EQ(summary.budget_met, true);
+        std::vector<std::uint32_t> places;
+        for (std::uint32_t i = 0; i < plan.conditional_objects.size(); ++i)
+            if (i % (1 + frame % 3) == 0) places.push_back(i);
+        std::vector<std::uint32_t> ordered = places;
+        levels.choose_late(input, plan, ordered);
+        for (const ConditionalObject& object : plan.conditional_objects) {
+            const auto place = static_cast<std::uint32_t>(&object - plan.conditional_objects.data());
+            const bool was_named = std::ranges::binary_search(places, place);
+            const auto same =
+                std::ranges::find(whole.conditional_objects, object.object, &ConditionalObject::object);
+            EXPECT_EQ(object.level, was_named ? same->level : 0) << frame;
+            if (!was_named) continue;
+            EXPECT_EQ(levels.levels()[index_of(object.object)], object.level);
+            EXPECT_EQ(levels.level_by_bound(input, object.object), object.level);
+            named += object.level > 0;
+        }
+        const auto key_of = [&](std::uint32_t place) {
+            const ConditionalObject& object = plan.conditional_objects[place];
+            return std::tuple(world.groups[index_of(object.object)], object.level, object.query,
+                              object.object);
+        };
+        EXPECT_TRUE(std::ranges::is_sorted(ordered, {}, key_of));
+        std::ranges::sort(ordered);
+        EXPECT_EQ(ordered, places);
+    }
+    EXPECT_GT(named, 50u);
+}
+
 TEST(ObjectLevels, warm_it_allocates_nothing) {
     const World world;
     ObjectLevels levels(world.chains, world.objects);
@@ -263,11 +305,16 @@ TEST(ObjectLevels, warm_it_allocates_nothing) {
     std::vector<FramePlan> plans;
     for (int frame = 0; frame < 20; ++frame) plans.push_back(world.plan(world.input(frame)));
     std::vector<FramePlan> again = plans;
+    std::vector<std::uint32_t> places(kObjects);
     const auto choose = [&](std::vector<FramePlan>& of) {
         for (std::size_t frame = 0; frame < of.size(); ++frame) {
             options.budget_ns = frame % 2 == 0 ? 1e5 : std::numeric_limits<double>::infinity();
             FrameInput input = world.input(static_cast<double>(frame));
             levels.choose(input, options, of[frame]);
+            levels.choose_at_once(input, options, of[frame]);
+            places.resize(of[frame].conditional_objects.size());
+            std::iota(places.begin(), places.end(), 0u);
+            levels.choose_late(input, of[frame], places);
         }
     };
     for (FramePlan& plan : again) plan.object_levels.reserve(kObjects);

@@ -177,7 +177,7 @@ TEST_F(Reported, a_warm_report_allocates_nothing) {
 }
 
 TEST(VisibilityReport, agrees_with_a_planner_and_a_device_about_what_is_behind_a_wall) {
-    // 200 objects ahead; a device that sees nothing of those beyond x = 0.
+    // 200 objects ahead; a device that sees nothing of those beyond x = 0 once the wall stands.
     const RhOctree nothing;
     std::vector<Aabb> boxes;
     for (int i = 0; i < 200; ++i) {
@@ -207,7 +207,8 @@ TEST(VisibilityReport, agrees_with_a_planner_and_a_device_about_what_is_behind_a
         turned += report.became_hidden().size();
         for (const PlannedQuery& query : plan.queries) {
             const auto asked = std::span(plan.query_boxes).subspan(query.first_box, query.box_count);
-            gpu.ask({query.ticket, std::ranges::any_of(asked, [](const Aabb& b) { return b.min.x < 0.0f; })});
+            gpu.ask({query.ticket,
+                     frame < 10 || std::ranges::any_of(asked, [](const Aabb& b) { return b.min.x < 0.0f; })});
         }
     }
     std::size_t hidden = 0;

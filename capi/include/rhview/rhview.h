@@ -154,6 +154,7 @@ typedef struct rhview_mesh {
     uint32_t reserved;
 } rhview_mesh;
 
+/** How many levels, how they end, and which threads make them. */
 typedef struct rhview_chain_options {
     size_t size;
     double ratio;                  /**< of a level's indices to those of the one before, 0.1 to 0.8; 0: 0.5 */
@@ -270,6 +271,10 @@ typedef struct rhview_object {
     uint32_t has_chain; /**< not 0: its mesh has levels of detail, those of `chain`. Since version 2 */
     uint32_t chain;     /**< into the scene's chains */
     double scale;       /**< the longest that a unit of its mesh can be in the scene; 0 is 1 */
+    uint32_t has_range; /**< not 0: nothing of it is ever outside `range`. Hidden with it, and with a top
+                           speed, it need not be moved at all. Since version 2 */
+    rhview_box range;   /**< a room, a court, all of a closed way */
+    uint32_t reserved;
 } rhview_object;
 
 /** `number`: the lowest that is free, below `max_objects`. RHVIEW_WRONG_STATE: there are as many. */
@@ -335,6 +340,7 @@ RHVIEW_API rhview_status rhview_view_create(rhview_scene* scene, const rhview_vi
                                             rhview_view** view);
 /** Null is allowed. */
 RHVIEW_API void rhview_view_destroy(rhview_view* view);
+/** What levels may cost: error in the picture, or time. */
 typedef struct rhview_level_bounds {
     size_t size;
     double max_error_px; /**< of an object in the picture; 0: full detail, unless the budget forbids it */

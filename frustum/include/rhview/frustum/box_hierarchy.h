@@ -70,7 +70,8 @@ class BoxHierarchy {
     [[nodiscard]] BoxSpans boxes() const { return boxes_.spans(); }  ///< in the order
 
     /// Takes new boxes of the same objects, by id, and keeps the tree: right whatever moved, slower where
-    /// neighbours parted. Cost: linear; no allocation.
+    /// neighbours parted. Cost: all boxes are compared in a row, with those that are held; what moved, and
+    /// the nodes above it, is taken. No allocation.
     void refit(std::span<const Aabb> boxes);
 
     /// Replaces `visible` by the ranges that are not outside, in order, with gaps between them. A plane that
@@ -81,12 +82,18 @@ class BoxHierarchy {
   private:
     friend class HierarchyBuilder;
 
-    void refit(std::span<const Aabb> boxes, bool all);
-    void refit_leaf(HierarchyNode& leaf, std::span<const Aabb> boxes, bool all);
+    void find_places();
+    bool take_moved(std::span<const Aabb> boxes);
+    void take(std::size_t object, const Aabb& box);
+    void refit_marked();
 
     std::vector<HierarchyNode> nodes_;
     std::vector<ObjectId> order_;
     BoxArrays boxes_;
+    std::vector<Aabb> known_;           ///< by id: what the tree holds
+    std::vector<std::uint32_t> place_;  ///< by id, in the order
+    std::vector<std::uint32_t> leaf_;   ///< by id, its node
+    std::vector<std::uint8_t> marked_;  ///< by node: has to be refitted
 };
 
 }  // namespace rhview

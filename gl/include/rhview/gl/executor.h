@@ -15,6 +15,7 @@
 
 #include "rhview/base/view.h"
 #include "rhview/gl/handle.h"
+#include "rhview/gl/late_objects.h"
 #include "rhview/gl/query_pool.h"
 #include "rhview/gl/scene_buffers.h"
 #include "rhview/pipeline/frame_plan.h"
@@ -40,6 +41,8 @@ struct FrameCounters {
     std::uint64_t conditional_indices = 0;    ///< in those, times instances
     std::uint64_t conditional_instances = 0;
     std::uint64_t indirect_calls = 0;  ///< the part of `conditional_draws` whose commands the device wrote
+    std::uint64_t found_hidden =
+        0;  ///< objects not submitted: by then the device had answered (`LateObjects`)
 };
 
 /// The conditional part of a frame, as far as its answers are known.
@@ -75,6 +78,7 @@ struct DrawOptions {
     std::span<const glm::dmat4> placements{};
     /// Their levels of detail, by `ObjectId`, for `SteppedExecutor`: a plan names its own. Empty: all of it.
     std::span<const std::uint8_t> object_levels{};
+    LateObjects late{};
 };
 
 /// Of all frames.
@@ -143,6 +147,9 @@ class Executor {
                       const DrawOptions& options, FrameCounters& counters);
     void draw_conditional(const FramePlan& plan, const SceneBuffers& scene, const View& view,
                           const DrawOptions& options, FrameCounters& counters);
+    /// Places the late objects that are left.
+    void prepare_late(const FramePlan& plan, const SceneBuffers& scene, const View& view,
+                      const DrawOptions& options, FrameCounters& counters);
     void draw_conditional_batch(std::span<const ConditionalRange> ranges, Submission submission,
                                 std::size_t& command, FrameCounters& counters);
     void draw_conditional_objects(std::size_t& command, FrameCounters& counters);
@@ -154,7 +161,9 @@ class Executor {
     bool clip_control_ = false;
     std::vector<std::int32_t> counts_;  ///< scratch of a multi-draw
     std::vector<const void*> offsets_;
-    std::vector<DrawRange> run_;  ///< scratch: ranges that hang on one query
+    std::vector<DrawRange> run_;         ///< scratch: ranges that hang on one query
+    std::vector<std::uint32_t> places_;  ///< scratch: late objects that are left
+    double asked_growth_ = 1.0;          ///< what boxes were widened for
     std::unique_ptr<ObjectDrawer> objects_;
     std::unique_ptr<OcclusionTests> tests_;
 };

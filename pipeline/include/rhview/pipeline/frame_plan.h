@@ -105,6 +105,11 @@ class ObjectSorter {
     /// `groups` by `ObjectId`; an object beyond the end is of group 0. Cost: linear in objects and largest
     /// group.
     void sort(std::span<const std::uint32_t> groups, FramePlan& plan);
+    /// Of its objects that are drawn at once alone.
+    void sort_at_once(std::span<const std::uint32_t> groups, FramePlan& plan);
+    /// The same order, but for levels before queries where these were chosen late: of places in `objects`.
+    void sort_places(std::span<const std::uint32_t> groups, std::span<const ConditionalObject> objects,
+                     std::vector<std::uint32_t>& places);
 
   private:
     template <class Object, class GroupOf, class LevelOf>
@@ -117,6 +122,7 @@ class ObjectSorter {
     };
     std::vector<AtOnce> at_once_, at_once_scratch_;
     std::vector<ConditionalObject> conditional_scratch_;
+    std::vector<std::uint32_t> places_scratch_;
     std::vector<std::size_t> offset_;
 };
 

@@ -161,6 +161,7 @@ class NodeVisibility {
     std::vector<std::uint64_t> words_;                ///< scratch
     std::vector<std::uint32_t> region_of_candidate_;  ///< by candidate that is an object or a region
     std::vector<std::uint32_t> group_sizes_;          ///< objects by group
+    std::vector<std::uint32_t> known_sizes_;          ///< of them, those whose indices are known
     std::size_t groups_in_use_ = 1;
     double mean_object_ns_ = 0.0;
     std::vector<ObjectId> objects_in_view_;

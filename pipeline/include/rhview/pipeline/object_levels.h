@@ -80,6 +80,15 @@ class ObjectLevels {
     LevelSummary choose(const FrameInput& input, const LevelOptions& options, FramePlan& plan);
     /// The same of all objects in the frustum, as if all were drawn at once.
     LevelSummary choose(const FrameInput& input, const LevelOptions& options);
+    /// The same of the objects of `plan` that are drawn at once. What hangs on queries waits for
+    /// `choose_late`: level 0 stands for it in the plan.
+    LevelSummary choose_at_once(const FrameInput& input, const LevelOptions& options, FramePlan& plan);
+    /// Sets the levels of those of `plan.conditional_objects` whose `places` are named, and puts the places
+    /// in order. By the bound alone, whatever was drawn before: so what follows does not depend on who was
+    /// named, that is, on which answers came in time. After `choose_at_once`, of the same `input` and `plan`.
+    void choose_late(const FrameInput& input, FramePlan& plan, std::span<std::uint32_t> places);
+    /// What the bound allows the box of an object by itself.
+    [[nodiscard]] std::uint8_t level_by_bound(const FrameInput& input, ObjectId object) const;
 
     /// By `ObjectId`: what was chosen last; 0 for what was not asked about.
     [[nodiscard]] std::span<const std::uint8_t> levels() const { return levels_; }
@@ -87,6 +96,9 @@ class ObjectLevels {
     [[nodiscard]] double error_px(ObjectId object) const { return errors_px_[index_of(object)]; }
     /// The indices of an object at its level; `whole` of one that has no chain.
     [[nodiscard]] std::uint32_t indices(ObjectId object, std::uint32_t whole) const;
+
+    /// The same of any level of it.
+    [[nodiscard]] std::uint32_t indices_at(ObjectId object, std::uint8_t level, std::uint32_t whole) const;
 
     /// Levels for all objects: of those in `plan` its own, for the rest what the bound allows for the boxes
     /// of `input`. For who draws everything to compare with. `levels` by `ObjectId`.
@@ -109,6 +121,8 @@ class ObjectLevels {
                                             double max_error_px) const;
     void add(const FrameInput& input, const Lens& lens, const LevelOptions& options, ObjectId object);
     void select(const LevelOptions& options);
+    LevelSummary select_at_once(const FrameInput& input, const LevelOptions& options, const FramePlan& plan);
+    void set_level(std::uint32_t object, std::uint8_t level, float error_px);
 
     std::span<const LodChain> chains_;
     std::vector<LevelledObject> objects_;  ///< by `ObjectId`
@@ -120,6 +134,9 @@ class ObjectLevels {
     std::vector<std::uint32_t> given_levels_;  ///< objects whose entries are not 0
     std::vector<LodObject> asked_;
     std::vector<ObjectId> in_view_;
+    LevelOptions late_options_;  ///< of what hangs on queries
+    Lens late_lens_;
+    std::vector<std::uint32_t> places_;
     LodSelectionOptions selection_options_;
     LodSelection selection_;
 };

@@ -5,9 +5,10 @@
 /// The replicated octree over static triangles: an order of the indices in which every node is one contiguous
 /// range per batch, and second copies of some nodes' indices, ordered by normal.
 ///
-/// Every triangle belongs to exactly one leaf, by its centroid; node boxes are refitted to their triangles,
-/// so they may overlap. Vertices stay where the engine has them. Shared and const once built: any number of
-/// views may read it.
+/// Every triangle belongs to exactly one leaf, by its centroid, or by the middle of its object's box where
+/// `TriangleBatch::objects` names one that fits into a leaf, which then is not divided. Node boxes are
+/// refitted to their triangles, so they may overlap. Vertices stay where the engine has them. Shared and
+/// const once built: any number of views may read it.
 #pragma once
 
 #include <cstdint>
@@ -157,10 +158,10 @@ OctreeOptions choose_octree_options(const DrawCosts& costs, std::uint64_t index_
 
 /// Builds the octree of `batches`; batch i is `BatchId{i}`. No batch, or batches without triangles, give no
 /// node. Deterministic. Errors name the batch and triangle: an index out of range, a corner that is not
-/// finite, an index count that is no multiple of three, more than 2^32 - 1 indices, or a build that was
-/// stopped. Threads: oneTBB's, as many as the caller's arena has; the octree is the same with any number.
-/// Cost: O(n) in triangles (radix sort), 32 bytes of scratch per triangle; with replicas O(n log n), see
-/// docs/draw-list.md.
+/// finite, an index count that is no multiple of three, objects that overlap or have no box, more than
+/// 2^32 - 1 indices, or a build that was stopped. Threads: oneTBB's, as many as the caller's arena has; the
+/// octree is the same with any number. Cost: O(n) in triangles (radix sort), 32 bytes of scratch per
+/// triangle; with replicas O(n log n), see docs/draw-list.md.
 Result<RhOctree> build_octree(std::span<const TriangleBatch> batches, const OctreeOptions& options = {});
 
 }  // namespace rhview

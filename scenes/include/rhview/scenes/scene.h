@@ -54,11 +54,7 @@ struct VertexPool {
 };
 
 /// What the scene's author placed as one thing: a contiguous part of its batch's indices.
-struct SceneObject {
-    std::uint32_t first_index = 0;
-    std::uint32_t index_count = 0;
-    Aabb bounds;
-};
+using SceneObject = BatchObject;
 
 /// Static triangles of one material in one vertex format; its objects cover `indices` in order, without gaps.
 struct SceneBatch {
