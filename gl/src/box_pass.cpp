@@ -78,6 +78,10 @@ void BoxPass::clear(std::size_t slots) {
     if (slots > words_capacity_) {
         words_capacity_ = std::max(slots, 2 * words_capacity_);
         renew(words_, words_capacity_ * sizeof(std::uint32_t));
+        // Where the device had no memory, the next frame tries again.
+        GLint64 bytes = 0;
+        glGetBufferParameteri64v(GL_COPY_WRITE_BUFFER, GL_BUFFER_SIZE, &bytes);
+        words_capacity_ = static_cast<std::size_t>(bytes) / sizeof(std::uint32_t);
     }
     const GLuint zero = 0;
     glBindBuffer(GL_COPY_WRITE_BUFFER, words_.name());
@@ -143,6 +147,7 @@ void BoxPass::reserve(Parcel& parcel, std::size_t words) {
     glBufferStorage(GL_COPY_WRITE_BUFFER, bytes, nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
     parcel.words =
         static_cast<const std::uint32_t*>(glMapBufferRange(GL_COPY_WRITE_BUFFER, 0, bytes, kAccess));
+    if (parcel.words == nullptr) parcel.capacity = 0;  // without memory; the next frame tries again
 }
 
 void BoxPass::bind_commands() const {

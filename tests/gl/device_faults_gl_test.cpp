@@ -53,7 +53,11 @@ bool allocates() {
 /// One allocation of the device fails while it lives: the object stays as it was, without storage.
 class DeviceShortage {
   public:
-    explicit DeviceShortage(int after) {
+    explicit DeviceShortage(int after) : honest_(keep_honest(after)) {}
+    [[nodiscard]] static bool struck() { return bent.failures > 0; }
+
+  private:
+    static bool keep_honest(int after) {
         bent = {epoxy_glBufferData,
                 epoxy_glBufferStorage,
                 epoxy_glRenderbufferStorage,
@@ -61,10 +65,10 @@ class DeviceShortage {
                 after,
                 0,
                 false};
+        return true;
     }
-    [[nodiscard]] static bool struck() { return bent.failures > 0; }
 
-  private:
+    bool honest_;  // before any entry is bent
     BentEntry<PFNGLBUFFERDATAPROC> buffer_data_{
         epoxy_glBufferData, [](GLenum target, GLsizeiptr size, const void* data, GLenum usage) {
             if (allocates()) bent.buffer_data(target, size, data, usage);
@@ -207,6 +211,9 @@ TEST_F(DeviceFaults, queries_that_are_never_answered_count_as_visible_after_thei
                                                       if (length != nullptr) *length = 1;
                                                       *value = GL_UNSIGNALED;
                                                   });
+        const BentEntry<PFNGLCLIENTWAITSYNCPROC> wait(
+            epoxy_glClientWaitSync,
+            [](GLsync, GLbitfield, GLuint64) -> GLenum { return GL_TIMEOUT_EXPIRED; });
         for (int frame = 0; frame < 30; ++frame) {
             const FramePlan plan = planner.plan(cells_.cells);
             if (frame < 10) asked += plan.queries.size();
