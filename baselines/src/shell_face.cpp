@@ -263,17 +263,17 @@ ShellFace::Reach ShellFace::reach_at(int slab, int shell) const {
     constexpr int kAll = 1 << 28;
     const double distance = distance_to(slab);
     if (shell <= kCutShells || distance < kSlack) return {-kAll, kAll, -kAll, kAll};
+    // The eye may be farther away than integers reach.
+    const auto cell_at = [](double coordinate) {
+        return static_cast<int>(std::fmin(std::fmax(std::floor(coordinate), -kAll), kAll));
+    };
     const auto first = [&](double eye, int pixel) {
         const double slope = slope_of(pixel);
-        return static_cast<int>(
-                   std::floor(eye + slope * (slope < 0.0 ? distance + 1.0 : distance) - kSlack)) -
-               1;
+        return cell_at(eye + slope * (slope < 0.0 ? distance + 1.0 : distance) - kSlack) - 1;
     };
     const auto last = [&](double eye, int pixel) {
         const double slope = slope_of(pixel);
-        return static_cast<int>(
-                   std::floor(eye + slope * (slope > 0.0 ? distance + 1.0 : distance) + kSlack)) +
-               1;
+        return cell_at(eye + slope * (slope > 0.0 ? distance + 1.0 : distance) + kSlack) + 1;
     };
     return {first(eye_u_, first_open_pixel_), last(eye_u_, end_open_pixel_), first(eye_v_, first_open_row_),
             last(eye_v_, end_open_row_)};

@@ -83,10 +83,10 @@ Aabb SoakWorld::box_of(std::size_t object) const {
 
 void SoakWorld::begin_frame(std::uint64_t frame) {
     time_s_ = static_cast<double>(frame) * kFrameSeconds;
-    movers_.begin_frame(time_s_);
     const double part = kObjects / 2 * kFrameSeconds / kLifeSeconds;
     if (uniform_(0, 1) < part) go();
     if (uniform_(0, 1) < part) come();
+    movers_.begin_frame(time_s_);
     for (const ObjectId object : movers_.due()) movers_.move(object, box_of(index_of(object)));
     for (std::size_t i = 0; i < movers_.slot_count(); ++i)
         slept_ += wanderers_[i].alive && movers_.is_asleep(ObjectId{static_cast<std::uint32_t>(i)}) ? 1 : 0;
