@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // The shared library's own `operator new` and `operator delete`. They are not exported: all code inside the
-// library uses them, and nothing else does. What inside it is made by other shared libraries (oneTBB,
-// meshoptimizer, the C++ standard library) is also freed there, and never passes through here.
+// library uses them, the C++ standard library's inside it too, and nothing else does. What is made by other
+// shared libraries (oneTBB, meshoptimizer) is also freed there, and never passes through here.
 
 #include <atomic>
 #include <cstddef>

@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "attributes.h"

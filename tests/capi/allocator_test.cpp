@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The rhview authors
 // SPDX-License-Identifier: MIT
 
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <mutex>
 #include <set>
+#include <string>
 
 #include "ball.h"
 #include "job_system.h"
@@ -99,6 +101,27 @@ TEST(Allocator, gives_all_memory_and_gets_it_back) {
         EXPECT_OK(rhview_costs_fit(frames.data(), frames.size(), &costs));
     }
     EXPECT_GT(memory.given, 100u);
+}
+
+TEST(Allocator, serves_files_too) {
+    // A name too long for a string or a path to keep inside itself.
+    const std::string file =
+        testing::TempDir() + "rhview_levels_in_a_file_whose_name_takes_memory_of_its_own.rho";
+    Memory memory;
+    const Ball ball(24);
+    const rhview_mesh mesh = ball.mesh();
+    rhview_chains* built = nullptr;
+    ASSERT_OK(rhview_chains_build(&mesh, 1, nullptr, &built));
+    EXPECT_OK(rhview_chains_save(built, file.c_str()));
+    EXPECT_OK(rhview_chains_save(built, file.c_str()));  // replaces it
+    rhview_chains* loaded = nullptr;
+    EXPECT_OK(rhview_chains_load(file.c_str(), &loaded));
+    EXPECT_EQ(rhview_chains_load((file + ".not").c_str(), &loaded), RHVIEW_INVALID_DATA);
+    EXPECT_EQ(rhview_chains_save(built, "/no/such/folder/whose/name/is/long/enough.rho"),
+              RHVIEW_INVALID_DATA);
+    rhview_chains_destroy(loaded);
+    rhview_chains_destroy(built);
+    std::remove(file.c_str());
 }
 
 TEST(Allocator, serves_the_threads_of_a_build_too) {

@@ -61,8 +61,9 @@ struct OcclusionSettings {
     /// Frames untested after which exploration takes an item. Ours: four times `visible_interval`.
     std::uint32_t explore_after = 32;
 
-    /// Cold start: of what is not known yet, the nearest are drawn at once until what is drawn at once covers
-    /// the screen this often. Ours: boxes cover about twice what their triangles do.
+    /// Cold start: of what is not known yet, the nearest that hide more than they cost are drawn at once
+    /// until what is drawn at once covers the screen this often. Ours: boxes cover about twice what their
+    /// triangles do.
     double cold_coverage = 2.0;
 
     /// For planners: boxes of descendants replace an item's box down to this depth, while their areas add up
