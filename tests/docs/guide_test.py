@@ -28,7 +28,11 @@ def fail(sentence):
 
 
 def run(command, code=0):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=400)
+    # The display may fail where the program did not, as when another one goes down at the same time: then once more.
+    for _ in range(2):
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=400)
+        if "xvfb-run: error" not in done.stdout + done.stderr:
+            break
     if done.returncode != code:
         fail(f"'{' '.join(map(str, command))}' returned {done.returncode}, not {code}:\n{done.stdout}{done.stderr}")
     return done.stdout
