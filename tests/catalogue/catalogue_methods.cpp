@@ -6,12 +6,12 @@
 #include "rhview/baselines/chc.h"
 #include "rhview/baselines/chc_plus_plus.h"
 #include "rhview/baselines/draw_everything.h"
-#include "rhview/baselines/frustum_objects.h"
 #include "rhview/baselines/grid_planner.h"
 #include "rhview/baselines/nested_grid.h"
 #include "rhview/baselines/octree_leaves.h"
 #include "rhview/gl/context.h"
 #include "rhview/pipeline/rhview_planner.h"
+#include "static_objects.h"
 
 namespace rhview {
 namespace {
@@ -39,17 +39,6 @@ OcclusionOptions occlusion_of(OcclusionMode mode, bool box_pass, std::span<const
     if (!box_pass) options.costs.box_pass.frame_ns = 1e12;
     options.object_indices = indices;
     return options;
-}
-
-std::vector<StaticObject> objects_of(const Scene& scene) {
-    std::vector<StaticObject> objects;
-    std::uint32_t first = 0;
-    for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {
-        for (const SceneObject& object : scene.batches[b].objects)
-            objects.push_back({{BatchId{b}, first + object.first_index, object.index_count}, object.bounds});
-        first += static_cast<std::uint32_t>(scene.batches[b].indices.size());
-    }
-    return objects;
 }
 
 std::unique_ptr<FramePlanner> grid_of(const Scene& scene) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <utility>
 
 #include "occlusion_fixture.h"
 
@@ -73,15 +74,20 @@ class Decisions : public OcclusionTest, public testing::WithParamInterface<Ways>
 const Aabb kHidden{{-1, -1, -14}, {1, 1, -12}};
 const Aabb kSeen{{-1, -1, -9}, {1, 1, -8}};
 
+/// Box i is seen where bit i is set.
+std::pair<std::vector<Aabb>, std::vector<bool>> four_boxes(unsigned mask) {
+    std::pair<std::vector<Aabb>, std::vector<bool>> four;
+    for (unsigned i = 0; i < 4; ++i) {
+        four.second.push_back((mask >> i & 1) != 0);
+        four.first.push_back(four.second.back() ? kSeen : kHidden);
+    }
+    return four;
+}
+
 TEST_P(Decisions, a_draw_is_drawn_if_and_only_if_its_query_sees_something) {
     const View view = view_at({0, 0, 0}, {0, 0, -1});
     for (unsigned mask = 0; mask < 16; ++mask) {
-        std::vector<Aabb> boxes;
-        std::vector<bool> expected;
-        for (unsigned i = 0; i < 4; ++i) {
-            expected.push_back((mask >> i & 1) != 0);
-            boxes.push_back(expected.back() ? kSeen : kHidden);
-        }
+        const auto [boxes, expected] = four_boxes(mask);
         const FramePlan plan = plan_of(boxes);
         EXPECT_EQ(drawn(plan, view), expected) << mask;
         EXPECT_EQ(counters_.draw_calls, 1u);
@@ -121,12 +127,7 @@ TEST_P(Decisions, late_objects_are_placed_unless_found_hidden_and_drawn_if_and_o
     const View view = view_at({0, 0, 0}, {0, 0, -1});
     std::uint64_t found = 0;
     for (unsigned mask = 0; mask < 16; ++mask) {
-        std::vector<Aabb> boxes;
-        std::vector<bool> expected;
-        for (unsigned i = 0; i < 4; ++i) {
-            expected.push_back((mask >> i & 1) != 0);
-            boxes.push_back(expected.back() ? kSeen : kHidden);
-        }
+        const auto [boxes, expected] = four_boxes(mask);
         LatePlaces late(*scene_);
         DrawOptions options;
         options.placements = late.placements;

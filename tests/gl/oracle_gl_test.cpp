@@ -9,10 +9,10 @@
 #include "gl_fixture.h"
 #include "random_geometry.h"
 #include "rhview/baselines/draw_everything.h"
-#include "rhview/baselines/frustum_objects.h"
 #include "rhview/baselines/octree_leaves.h"
 #include "rhview/pipeline/rhview_planner.h"
 #include "rhview/scenes/object_motion.h"
+#include "static_objects.h"
 #include "uniform.h"
 
 namespace rhview::gl {
@@ -59,17 +59,6 @@ struct Method {
     std::unique_ptr<RhOctree> octree;
     SceneBuffers buffers;
 };
-
-std::vector<StaticObject> objects_of(const Scene& scene) {
-    std::vector<StaticObject> objects;
-    std::uint32_t first = 0;
-    for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {
-        for (const SceneObject& object : scene.batches[b].objects)
-            objects.push_back({{BatchId{b}, first + object.first_index, object.index_count}, object.bounds});
-        first += static_cast<std::uint32_t>(scene.batches[b].indices.size());
-    }
-    return objects;
-}
 
 std::vector<Method> every_method(const Scene& scene) {
     std::vector<Method> methods;

@@ -106,6 +106,21 @@ TEST(ColdStart, the_nearest_are_drawn_until_they_cover_the_screen_twice) {
     }
 }
 
+TEST(ColdStart, what_costs_more_than_it_hides_is_asked_first) {
+    // All together take 10 * 1e5 + 1e6 + 1e4 ns, half of it hidden: 1,005,000 / 2,000 = 502 ns a pixel.
+    OneView view({}, box_pass_costs(100));
+    std::vector<OcclusionCandidate> candidates = row(12, 1e5, 300);
+    candidates[0].render_ns = 1e6;
+    candidates[0].pixels = 100;  // the nearest: 10,000 ns a pixel
+    candidates[1].render_ns = 1e4;
+    candidates[1].pixels = 30;  // as small, and cheap: 333
+    view.frame(candidates, always, 0.0, 1000.0);
+    EXPECT_EQ(view.action(0), OcclusionAction::QueryFirst);
+    EXPECT_EQ(view.action(1), OcclusionAction::DrawAndQuery);
+    for (std::size_t i = 2; i < 12; ++i)  // 30 + 7 * 300 pixels cover the screen twice
+        EXPECT_EQ(view.action(i), i < 9 ? OcclusionAction::DrawAndQuery : OcclusionAction::QueryFirst) << i;
+}
+
 TEST(ColdStart, what_is_seen_while_occluders_are_unknown_is_asked_again) {
     OneView view({}, box_pass_costs(100));
     const std::vector<OcclusionCandidate> candidates = row(10, 1e5, 500);
