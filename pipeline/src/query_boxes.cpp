@@ -91,7 +91,7 @@ double rounding_growth(const glm::dmat3& linear, const glm::dmat3& inverse) {
             for (int k = 0; k < 3; ++k) sum += std::abs(linear[k][row] * inverse[column][k]);
         growth = std::max(growth, sum);
     }
-    return growth;
+    return std::isfinite(growth) ? growth : 1.0;
 }
 
 BoxWidener::BoxWidener(const View& view, const glm::dvec3& scene_origin, const RasterPrecision& raster,

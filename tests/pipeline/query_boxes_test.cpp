@@ -148,6 +148,12 @@ TEST(QueryBoxes, faces_are_those_that_face_the_eye) {
     EXPECT_EQ(along.widen({{2, 3, -12}, {4, 5, -10}}, 0).faces_and_slot, 2u << 4);
 }
 
+TEST(QueryBoxes, what_is_scaled_to_nothing_widens_no_box) {
+    for (const glm::dvec3& scale : {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 1.0), glm::dvec3(0.0, 3.0, 0.0)})
+        EXPECT_EQ(rounding_growth(glm::scale(glm::dmat4(1.0), scale)), 1.0);
+    EXPECT_EQ(rounding_growth(glm::dmat4(glm::dmat3(1, 2, 3, 4, 5, 6, 7, 8, 9))), 1.0);
+}
+
 TEST(QueryBoxes, an_objects_rounding_grows_with_its_shear) {
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
     EXPECT_EQ(rounding_growth(glm::translate(glm::dmat4(1.0), {1e6, 2, 3})), 1.0);

@@ -72,7 +72,8 @@ struct BoxInstance {
 static_assert(sizeof(BoxInstance) == 32);
 
 /// By how much more the clip coordinates of an object's vertices err than those of static triangles: 1 for a
-/// translation, at most 3 for rotations and scales, more for shears.
+/// translation, at most 3 for rotations and scales, more for shears. 1 too for what has no inverse (a scale
+/// of 0): drawn in its own space, nothing of it is seen.
 double rounding_growth(const glm::dmat4& scene_from_mesh);
 /// The same of its linear part, whose inverse is known.
 double rounding_growth(const glm::dmat3& linear, const glm::dmat3& inverse);
